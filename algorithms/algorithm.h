@@ -1,0 +1,122 @@
+// The one interface behind which every many-light algorithm runs.
+//
+// A frame is three calls: prepare() on the CPU, cull() and the shading pass on the GPU. prepare() sees no Vulkan and writes plain
+// memory that the caller lends, so that it can be tested and benchmarked without a device. The shading loop is the harness's own;
+// an algorithm puts its light cursor into it (`light_cursor.glsl` in its folder), so times differ by how lights are found and by
+// nothing else.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algorithms/parameters.h"
+#include "harness/base/parallel.h"
+#include "harness/base/spans.h"
+#include "shaders/shared/light.h"
+#include "shaders/shared/view.h"
+
+namespace ml {
+
+namespace gpu {
+class Commands;
+class Device;
+}  // namespace gpu
+struct FrameTargets;  // harness/frame/targets.h: g-buffer and result of one resolution
+struct ContributingLists;
+
+struct AlgorithmInfo {
+  std::string name;
+  std::string summary;  // one line
+  std::string paper;    // author, title, year; "" for the reference algorithms
+  bool exact = true;    // false: stochastic
+  uint32_t max_lights = 0;       // more lights than this are a configuration error; 0: no limit of its own (24-bit ids)
+  bool needs_contributing_lists = false;  // `ideal`: wants the per-pixel lists of contributing lights
+  bool reference_only = false;   // too slow for ordinary runs: left out of "all"
+  std::vector<std::string> cpu_stages, gpu_stages;  // span names it writes, in order
+  std::vector<std::string> shapes;                  // light shapes it bounds
+};
+
+// The lights of one frame, camera-relative (world axes), rounded to float once and the same for CPU and GPU.
+// Structure of arrays, so that bounds can be computed many at a time; all spans have the same length and 64 readable bytes of padding
+// behind their last element.
+struct FrameLights {
+  std::span<const float> x, y, z;   // m
+  std::span<const float> radius;    // m, > 0
+  std::span<const gpu_data::LightCore> core;    // the same lights as the GPU has them
+  std::span<const gpu_data::LightExtra> extra;  // spots: axis and cone; same length as core, or empty when no light needs it
+  size_t count() const { return x.size(); }
+};
+
+// What prepare() sees.
+struct FrameInput {
+  uint32_t index = 0;  // frame number in the camera path
+  gpu_data::ViewData view;
+  FrameLights lights;
+  Threads* threads = nullptr;  // never null in prepare()
+};
+
+// Memory that prepare() fills and the GPU reads. Slots are the algorithm's own small numbers from 0, in the order of
+// Algorithm::buffers().
+class UploadMemory {
+ public:
+  virtual ~UploadMemory() = default;
+  // At least `bytes` writable bytes, 64-byte aligned; contents undefined. Valid until the next prepare(). Grows rarely and never
+  // shrinks. Throws SystemError, naming algorithm, slot and limit, when the device cannot hold it.
+  virtual std::span<std::byte> map(uint32_t slot, size_t bytes) = 0;
+};
+
+// Exact numbers of one prepare().
+struct PrepareCounters {
+  uint64_t in_frustum = 0;   // lights left after culling against the view
+  uint64_t list_bytes = 0;   // bytes of the structures that the GPU reads, light data apart unless duplicated
+  uint64_t overflow_tiles = 0, overflow_lights = 0;  // demand beyond the algorithm's caps; 0 for lossless ones
+};
+
+// A SPIR-V module that the build put into the program.
+using Spirv = std::span<const uint32_t>;
+
+// The shading loop compiled with the algorithm's light cursor.
+struct ShadeShaders {
+  Spirv timed;     // nothing but the picture
+  Spirv counting;  // writes the counters too
+};
+
+class Algorithm {
+ public:
+  virtual ~Algorithm() = default;
+
+  // CPU only. Reuses its memory from frame to frame; the same input gives the same bytes for any number of threads.
+  virtual void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) = 0;
+  virtual PrepareCounters counters() const = 0;
+
+  // Names of the storage buffers behind the upload slots, as the shaders call them.
+  virtual std::vector<std::string> buffers() const = 0;
+  virtual ShadeShaders shade_shaders() const = 0;
+  // Values of the cursor's specialization constants (ids from 16), in order.
+  virtual std::vector<uint32_t> shade_constants() const { return {}; }
+
+  // GPU list building, each pass in a named span. Default: none.
+  virtual void create_gpu(gpu::Device&) {}
+  virtual void cull(gpu::Commands&, const FrameInput&) {}
+};
+
+// One line of the registry.
+struct AlgorithmEntry {
+  AlgorithmInfo info;
+  std::vector<ParameterInfo> parameters;
+  // Further checks across parameters and against resolution; returns "" or what is wrong.
+  std::function<std::string(const Parameters&, uint32_t width, uint32_t height)> check;
+  std::function<std::unique_ptr<Algorithm>(const Parameters&)> create;
+};
+
+// All algorithms, in the order in which tables show them. The only place that names them is registry.cpp.
+const std::vector<AlgorithmEntry>& algorithm_registry();
+// Throws UsageError with the nearest known name; `place` begins the message.
+const AlgorithmEntry& find_algorithm(const std::string& name, const std::string& place);
+
+}  // namespace ml

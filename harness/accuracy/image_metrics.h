@@ -1,0 +1,23 @@
+// How different two pictures are.
+#pragma once
+
+#include <cstdint>
+
+#include "harness/output/picture.h"
+
+namespace ml {
+
+struct ImageDifference {
+  double max_relative = 0;   // largest per-channel |a-b| / max(|b|, floor) over pixels
+  uint32_t worst_x = 0, worst_y = 0;
+  double rel_mse = 0;        // mean over pixels and channels of (a-b)^2 / (b^2 + 1e-2 * mean(b)^2)
+  double rmse = 0;
+  uint64_t not_finite = 0;   // pixels with a NaN or an infinity in either picture; they are in no other number
+  uint64_t differing_bits = 0;  // pixels whose bits differ at all
+};
+
+// `floor`: absolute floor of the denominator, in the pictures' unit; 0: 1e-4 of b's mean luminance. Sizes and channels must match
+// (std::invalid_argument).
+ImageDifference compare_images(const Picture& a, const Picture& b, double floor = 0);
+
+}  // namespace ml

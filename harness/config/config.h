@@ -1,0 +1,93 @@
+// A configuration: what is run, on what, how often. Read from JSON, every key checked; written back with every default filled in.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algorithms/algorithm.h"
+#include "harness/scene/light_set.h"
+#include "harness/scene/scene.h"
+
+namespace ml {
+
+struct CameraSpec {
+  std::string path = "default";     // a path of the scene
+  uint32_t frames = 16;             // [1, 100000]
+  std::vector<CameraKey> keyframes;  // when not empty: the path itself ({"time","position","target"} in metres of the file's world)
+};
+
+enum class TimingMode { stages, whole };  // isolated spans | two stamps a frame
+
+struct MeasureSpec {
+  uint32_t warmup = 1;    // laps, [0, 1000]
+  uint32_t repeats = 3;   // laps, [1, 10000]
+  uint32_t threads = 1;   // CPU threads of prepare(), [1, 256]
+  uint32_t seed = 1;      // of the interleaving
+  TimingMode mode = TimingMode::stages;
+};
+
+struct OutputSpec {
+  std::vector<uint32_t> heatmaps;  // frame numbers
+  std::vector<uint32_t> images;    // frame numbers
+  bool trace = true;               // Chrome/Perfetto trace of the spans
+};
+
+// "auto": found from the scene's content; "off": forced off. (design: Effects)
+struct EffectsSpec {
+  bool spots = true;
+  bool specular = true;
+  bool alpha_mask = true;
+};
+
+struct AlgorithmSpec {
+  std::string name;
+  Parameters parameters;
+};
+
+// One point of the sweep: everything that stays the same while its algorithms are interleaved.
+struct Setup {
+  SceneSpec scene;
+  std::string scene_label;  // "canyon" or the file's stem
+  LightSpec lights;
+  CameraSpec camera;
+  uint32_t width = 960, height = 540;  // px, [1, 16384] each
+  EffectsSpec effects;
+  std::vector<AlgorithmSpec> algorithms;
+};
+
+struct Config {
+  std::string name;
+  MeasureSpec measure;
+  OutputSpec outputs;
+  std::vector<Setup> setups;      // sweep and zip expanded, at least one
+  nlohmann::json resolved;        // the configuration with every default filled in and sweeps kept; reading it again gives the same Config
+};
+
+// Reads a file, or a configuration by its name in the installed configs/ folder (`quick`). `overrides` are --set "a.b=value" pairs,
+// value as JSON or else as a string. Relative glTF paths are relative to the configuration file, or to the working directory for
+// an override. Throws UsageError "FILE: $.lights.cuont: unknown key, did you mean 'count'?".
+Config load_config(const std::string& file_or_name, const std::vector<std::string>& overrides);
+// The same from parsed JSON; `source` stands for the file in messages.
+Config parse_config(const nlohmann::json& json, const std::string& source, const std::filesystem::path& relative_to);
+
+// Identity of a case: setup and algorithm with the parameters that differ from the defaults, in letters that a file name can hold:
+// "canyon-8192-960x540-clustered-tile24". Unique within a configuration (a suffix -2, -3 is added where needed).
+struct Case {
+  std::string id;
+  size_t setup = 0, algorithm = 0;  // indices into Config::setups and Setup::algorithms
+};
+std::vector<Case> expand_cases(const Config& config);
+
+// Names and one-line summaries of the configurations in configs/ (found beside the program or in the source tree).
+struct ConfigInfo {
+  std::string name, summary;
+};
+std::vector<ConfigInfo> known_configs();
+
+// The JSON schema of a configuration (results/schema/config.schema.json), built into the program.
+const nlohmann::json& config_schema();
+
+}  // namespace ml

@@ -1,0 +1,66 @@
+// result.json: schema 1, one file that is valid after every finished step of a run.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "harness/measure/samples.h"
+
+namespace ml {
+
+inline constexpr int result_schema_version = 1;
+
+// One case's numbers. Counters are one per frame.
+struct CaseResult {
+  std::string id, algorithm, scene;
+  nlohmann::json parameters = nlohmann::json::object();
+  uint32_t lights = 0;
+  uint32_t width = 0, height = 0;
+  std::vector<std::string> effects;
+  std::vector<uint32_t> frames;
+  SampleTable cpu_ms, gpu_ms;
+  std::map<std::string, std::vector<double>> counters;
+  nlohmann::json accuracy = nlohmann::json::object();
+  nlohmann::json rejected_lights = nlohmann::json::object();  // reason -> count
+  std::map<std::string, uint64_t> memory_bytes;
+  bool timing_suspect = false;
+  std::string timing_note;  // why it is suspect
+  uint32_t repeats_done = 0;
+  std::vector<std::string> heatmaps, images;  // relative to the result's folder
+};
+
+struct Result {
+  nlohmann::json context = nlohmann::json::object();
+  nlohmann::json config = nlohmann::json::object();
+  bool complete = false;        // false while running and after an interruption
+  nlohmann::json harness = nlohmann::json::object();  // where the run's wall time went: spans in ms, overhead fraction
+  std::vector<CaseResult> cases;
+};
+
+nlohmann::json to_json(const Result& result);
+// Checks against the schema built into the program, then writes whole or not at all. Throws SystemError; a result that its own schema
+// refuses is a programmer error and throws std::logic_error.
+void write_result(const Result& result, const std::filesystem::path& file);
+// Reads and checks a result. Throws UsageError naming file and JSON path.
+nlohmann::json read_result(const std::filesystem::path& file);
+
+const nlohmann::json& result_schema();
+
+// All violations of `schema` by `document`, one line each ("$.cases[0].lights: ..."); empty when valid. (valijson)
+std::vector<std::string> schema_violations(const nlohmann::json& schema, const nlohmann::json& document);
+
+// Chrome trace events (opens in Perfetto): one process, rows "cpu" and "gpu".
+struct TraceEvent {
+  std::string name, row;
+  double begin_ms = 0, duration_ms = 0;  // since the run began
+  std::map<std::string, std::string> arguments;  // case, frame, repeat
+};
+void write_trace(const std::vector<TraceEvent>& events, const std::string& device_note, const std::filesystem::path& file);
+
+// A table for people: one line a case, medians, with the device's type beside every time.
+std::string summary_table(const Result& result);
+
+}  // namespace ml

@@ -1,0 +1,112 @@
+// A level as the bench sees it: triangles, materials, cameras and the lights that the file itself brings.
+//
+// Units: metres, y up, right-handed. Everything is relative to `origin`, so that a level far from its own zero keeps its precision:
+// importers add up transforms in double, choose an origin near the level's middle, subtract it in double, and only then round.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/scene/camera.h"
+#include "harness/scene/light.h"
+
+namespace ml {
+
+struct Vertex {
+  glm::vec3 position;  // m, relative to Scene::origin
+  glm::vec3 normal;    // unit length
+  glm::vec2 uv;        // texture coordinates, 0 where the file has none
+};
+static_assert(sizeof(Vertex) == 32);
+
+// 8-bit sRGB colour with linear alpha, row by row from the top.
+struct Texture {
+  std::string name;
+  uint32_t width = 0, height = 0;
+  std::vector<uint8_t> rgba;  // width * height * 4
+};
+
+enum class AlphaMode : uint32_t { opaque = 0, mask = 1 };  // glTF BLEND is drawn as mask with cutoff 0.5, and said so in Scene::notes
+
+struct Material {
+  std::string name;
+  glm::vec4 base_color{1};    // linear factor, alpha in a
+  int base_color_texture = -1;  // index into Scene::textures, -1 for none
+  float metallic = 0;         // [0, 1]
+  float roughness = 0.8f;     // [0, 1]
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha_cutoff = 0.5f;
+  bool double_sided = false;
+};
+
+// A run of indices with one material.
+struct Draw {
+  uint32_t first_index = 0;
+  uint32_t index_count = 0;  // a multiple of 3
+  uint32_t material = 0;
+};
+
+struct Bounds {
+  glm::vec3 min{0}, max{0};
+  glm::vec3 size() const { return max - min; }
+  glm::vec3 center() const { return 0.5f * (min + max); }
+};
+
+struct Scene {
+  std::string name;
+  glm::dvec3 origin{0};  // m, in the file's own world
+  std::vector<Vertex> vertices;
+  std::vector<uint32_t> indices;  // triangles, counter-clockwise from outside
+  std::vector<Draw> draws;
+  std::vector<Material> materials;  // at least one
+  std::vector<Texture> textures;
+  std::vector<Light> lights;        // the file's own (KHR_lights_punctual), for placement `gltf`
+  std::vector<CameraPath> paths;    // the first is `default`
+  Bounds bounds;                    // of the vertices
+  float near = 0.1f;                // m
+  float far = 1000;                 // m, the depth range of grids: about the longest view
+  std::vector<std::string> notes;   // one line each: what the importer could not represent, to be shown to the user
+
+  uint32_t triangle_count() const { return static_cast<uint32_t>(indices.size() / 3); }
+  // The path of that name. Throws UsageError with the nearest known name.
+  const CameraPath& path(const std::string& path_name) const;
+};
+
+// What `list scenes` and the tests read about a procedural scene.
+struct SceneInfo {
+  std::string name;
+  std::string summary;  // one line
+};
+std::vector<SceneInfo> procedural_scenes();
+
+// What a configuration's "scene" says: a procedural scene or a glTF/GLB file.
+struct SceneSpec {
+  std::string procedural;            // name, or empty
+  std::filesystem::path gltf;        // file, or empty
+  int gltf_scene = -1;               // which of the file's scenes; -1 is the file's default
+  uint32_t seed = 1;                 // procedural generation and automatic camera paths
+  glm::dvec3 offset{0};              // m, added to the whole level in double: the far-from-origin test; |component| <= 1e9
+};
+
+// Throws UsageError (unknown name, bad file) with one line that names the file and the place in it.
+Scene load_scene(const SceneSpec& spec);
+
+// Reads a .gltf or .glb. A file without a camera gets automatic paths.
+Scene import_gltf(const std::filesystem::path& file, int scene_index, uint32_t seed, const glm::dvec3& offset);
+// The same from memory, for tests and fuzzing; `name` stands in for the file name in errors, and external buffers are refused.
+Scene import_gltf_memory(std::span<const std::byte> bytes, const std::string& name, int scene_index, uint32_t seed,
+                         const glm::dvec3& offset);
+
+// Writes scene, cameras (the keys of the default path as an animated camera) and lights (KHR_lights_punctual, up to 4096; above that in a
+// binary side file FILE.lights.bin named in the file's extras). Byte-identical on every machine. Throws SystemError.
+void export_glb(const Scene& scene, const std::vector<Light>& lights, const std::filesystem::path& file);
+
+// A path at eye height (1.7 m) above upward-facing floor, looking along long free views; seeded, deterministic. Levels
+// without any floor get a path around their bounds.
+CameraPath automatic_path(const Scene& scene, uint32_t seed);
+
+}  // namespace ml
