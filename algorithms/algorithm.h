@@ -68,6 +68,8 @@ class UploadMemory {
   // At least `bytes` writable bytes, 64-byte aligned; contents undefined. Valid until the next prepare(). Grows rarely and never
   // shrinks. Throws SystemError, naming algorithm, slot and limit, when the device cannot hold it.
   virtual std::span<std::byte> map(uint32_t slot, size_t bytes) = 0;
+  // The most bytes that one slot can hold.
+  virtual size_t limit() const = 0;
 };
 
 // Exact numbers of one prepare().

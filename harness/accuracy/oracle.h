@@ -1,4 +1,15 @@
-// The double-precision CPU oracle: every light, straightforwardly, for given surface points. Shares no code with the GPU.
+// The double-precision CPU oracle: every light, straightforwardly, for given surface points. Shares no code
+// with the GPU.
+//
+// radiance = sum over lights of intensity * falloff * cone * N.L * (diffuse + specular), where
+//   diffuse  = albedo * (1 - metallic) / pi
+//   specular = D V F: GGX with alpha = max(roughness, 0.045)^2, height-correlated Smith visibility, Schlick's
+//   Fresnel term from
+//              f0 = mix(0.04, albedo, metallic). Sources: B. Walter et al., "Microfacet Models for Refraction
+//              through Rough Surfaces", EGSR 2007; E. Heitz, "Understanding the Masking-Shadowing Function",
+//              JCGT 3(2), 2014; C. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.
+// A light contributes iff falloff > 0, N.L > 0 and cone > 0. A light within 1e-6 m of the point has no
+// direction: it counts as shining from straight above (L = N, distance 0), so that the sum stays finite.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +27,9 @@ struct SurfacePoint {
   glm::dvec3 normal{0, 1, 0};
   glm::dvec3 albedo{0.5};
   double roughness = 0.8, metallic = 0;
+  // Unit, towards the viewer. Zero: perspective, towards the camera at 0. Orthographic: against the camera's
+  // forward axis.
+  glm::dvec3 view{0};
 };
 
 // A light as the GPU has it, in double.
@@ -31,14 +45,25 @@ struct OracleLight {
 struct OracleAnswer {
   glm::dvec3 radiance{0};
   uint32_t contributing = 0;
-  // Lights so near to the edge of contributing (distance within 1e-5 of the radius, cosine within 1e-5 of 0 or of the cone's edge, relative)
-  // that single precision may decide otherwise; they count in `contributing` by the double answer.
+  // Lights so near to the edge of contributing (distance within 1e-5 of the radius, cosine within 1e-5 of 0
+  // or of the cone's edge, relative) that single precision may decide otherwise; they count in `contributing`
+  // by the double answer. A light that another condition excludes clearly is not among them.
   uint32_t marginal = 0;
 };
 
 OracleAnswer oracle_shade(const SurfacePoint& point, std::span<const OracleLight> lights, bool specular);
 
-// One light's windowed inverse-square falloff in double: (1 - (d/r)^2)^2 clamped at 0, over max(d^2, 1e-4 m^2).
+// One light's windowed inverse-square falloff in double: (1 - (d/r)^2)^2 clamped at 0, over max(d^2, 1e-4
+// m^2).
 double oracle_falloff(double distance, double radius);
+
+// clamp(cosine * scale + offset, 0, 1)^2, 0 unless cosine > cos_outer; 1 for lights that are no spots.
+// `cosine`: between the spot's axis and the direction from the light to the point.
+double oracle_cone(const OracleLight& light, double cosine);
+
+// Diffuse plus, when wanted, specular reflection (1/sr), N.L not included. All directions unit, away from the
+// point; N.L > 0. N.V is taken as max(|N.V|, 1e-4), as interpolated normals may face away from the viewer.
+glm::dvec3 oracle_brdf(const SurfacePoint& point, const glm::dvec3& to_light, const glm::dvec3& to_viewer,
+                       bool specular);
 
 }  // namespace ml

@@ -1,9 +1,11 @@
-// A configuration: what is run, on what, how often. Read from JSON, every key checked; written back with every default filled in.
+// A configuration: what is run, on what, how often. Read from JSON, every key checked; written back with
+// every default filled in.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,18 +16,19 @@
 namespace ml {
 
 struct CameraSpec {
-  std::string path = "default";     // a path of the scene
-  uint32_t frames = 16;             // [1, 100000]
-  std::vector<CameraKey> keyframes;  // when not empty: the path itself ({"time","position","target"} in metres of the file's world)
+  std::string path = "default";      // a path of the scene
+  uint32_t frames = 16;              // [1, 100000]
+  std::vector<CameraKey> keyframes;  // when not empty: the path itself ({"time","position","target"} in
+                                     // metres of the file's world)
 };
 
 enum class TimingMode { stages, whole };  // isolated spans | two stamps a frame
 
 struct MeasureSpec {
-  uint32_t warmup = 1;    // laps, [0, 1000]
-  uint32_t repeats = 3;   // laps, [1, 10000]
-  uint32_t threads = 1;   // CPU threads of prepare(), [1, 256]
-  uint32_t seed = 1;      // of the interleaving
+  uint32_t warmup = 1;   // laps, [0, 1000]
+  uint32_t repeats = 3;  // laps, [1, 10000]
+  uint32_t threads = 1;  // CPU threads of prepare(), [1, 256]
+  uint32_t seed = 1;     // of the interleaving
   TimingMode mode = TimingMode::stages;
 };
 
@@ -62,26 +65,41 @@ struct Config {
   std::string name;
   MeasureSpec measure;
   OutputSpec outputs;
-  std::vector<Setup> setups;      // sweep and zip expanded, at least one
-  nlohmann::json resolved;        // the configuration with every default filled in and sweeps kept; reading it again gives the same Config
+  std::vector<Setup> setups;  // sweep and zip expanded, at least one
+  nlohmann::json resolved;    // the configuration with every default filled in and sweeps kept; reading it
+                              // again gives the same Config
 };
 
-// Reads a file, or a configuration by its name in the installed configs/ folder (`quick`). `overrides` are --set "a.b=value" pairs,
-// value as JSON or else as a string. Relative glTF paths are relative to the configuration file, or to the working directory for
-// an override. Throws UsageError "FILE: $.lights.cuont: unknown key, did you mean 'count'?".
+// Reads a file, or a configuration by its name in the installed configs/ folder (`quick`,
+// `regression/smoke`). `overrides` are --set "a.b=value" pairs, value as JSON or else as a string; they are
+// applied in order, an object sets the keys that it has, a swept key that is set is no longer swept, and
+// "sweep.KEY=[...]" sweeps it. "algorithms.tile=32" goes to every algorithm that has it,
+// "algorithms.0.tile=32" and "algorithms.clustered.tile=32" to one. Relative glTF paths are relative to the
+// configuration file, or to the working directory for an override. Throws UsageError "FILE: $.lights.cuont:
+// unknown key, did you mean 'count'?", with
+// "--set" in place of the file for an override.
 Config load_config(const std::string& file_or_name, const std::vector<std::string>& overrides);
 // The same from parsed JSON; `source` stands for the file in messages.
-Config parse_config(const nlohmann::json& json, const std::string& source, const std::filesystem::path& relative_to);
+Config parse_config(const nlohmann::json& json, const std::string& source,
+                    const std::filesystem::path& relative_to);
+// The same from text, as a file holds it; syntax errors name line and column, and no key may be there twice.
+Config parse_config_text(std::string_view text, const std::string& source,
+                         const std::filesystem::path& relative_to,
+                         const std::vector<std::string>& overrides = {});
 
-// Identity of a case: setup and algorithm with the parameters that differ from the defaults, in letters that a file name can hold:
-// "canyon-8192-960x540-clustered-tile24". Unique within a configuration (a suffix -2, -3 is added where needed).
+// Identity of a case: setup (with what else the sweep changes) and algorithm with the parameters that differ
+// from the defaults, in letters that a file name can hold: "canyon-8192-960x540-clustered-tile32",
+// "canyon-8192-960x540-lights.seed3-ideal". Unique within a configuration (a suffix -2, -3 is added where
+// needed), [a-zA-Z0-9._-] only, at most 120 letters.
 struct Case {
   std::string id;
   size_t setup = 0, algorithm = 0;  // indices into Config::setups and Setup::algorithms
 };
 std::vector<Case> expand_cases(const Config& config);
 
-// Names and one-line summaries of the configurations in configs/ (found beside the program or in the source tree).
+// Names and one-line summaries (their descriptions) of the configurations in configs/: the folder that the
+// environment variable MANYLIGHTS_CONFIGS names, else ../share/manylights/configs beside the program's
+// folder, else the source tree's.
 struct ConfigInfo {
   std::string name, summary;
 };

@@ -7,20 +7,30 @@
 
 namespace ml {
 
+// Samples that are NaN or infinite are left out everywhere.
+
 // Middle value (mean of the two middle ones); NaN for no samples.
 double median(std::span<const double> samples);
-// p in [0, 1], linear between neighbours; NaN for no samples.
+// p in [0, 1] (clamped), linear between neighbours; NaN for no samples.
 double quantile(std::span<const double> samples, double p);
 
+// low <= value <= high, or all three NaN when nothing can be said. With one repeat all three are the value:
+// one lap tells nothing about its own spread.
 struct Interval {
   double value = 0, low = 0, high = 0;
 };
 
-// Per-frame time over repeats: for each frame the median over its repeats, then the mean over frames; the 95 % interval resamples the
-// repeats (seeded, 1000 draws). `samples` is [repeat][frame].
+// Per-frame time over repeats: for each frame the median over its repeats, then the mean over frames; the 95
+// % interval resamples the repeats (seeded, 1000 draws), widened for few repeats. `samples` is
+// [repeat][frame].
 Interval mean_frame_time(const std::vector<std::vector<double>>& samples, uint32_t seed = 1);
 
-// Ratio a / b paired by frame, resampled over repeats, with a 95 % interval; both are [repeat][frame] of the same shape.
-Interval paired_ratio(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b, uint32_t seed = 1);
+// Ratio a / b: for each frame the ratio of its medians over the repeats, then the median over frames (so that
+// ratio(b, a) is 1 / ratio(a, b) for an odd number of frames); frames in which a or b has no sample above 0
+// are left out. The 95 % interval resamples the laps: the same laps of a and b when both have as many,
+// because interleaved laps share their drift, else each on its own. `a` and `b` are [repeat][frame]; frames
+// beyond the shorter one are left out.
+Interval paired_ratio(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b,
+                      uint32_t seed = 1);
 
 }  // namespace ml

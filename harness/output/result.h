@@ -35,30 +35,43 @@ struct CaseResult {
 struct Result {
   nlohmann::json context = nlohmann::json::object();
   nlohmann::json config = nlohmann::json::object();
-  bool complete = false;        // false while running and after an interruption
-  nlohmann::json harness = nlohmann::json::object();  // where the run's wall time went: spans in ms, overhead fraction
+  bool complete = false;  // false while running and after an interruption
+  nlohmann::json harness =
+      nlohmann::json::object();  // where the run's wall time went: spans in ms, overhead fraction
   std::vector<CaseResult> cases;
 };
 
+// The document, times cut to the repeats that are done, parts of the context that nobody filled in present
+// but empty. JSON knows no NaN and no infinity: in context, config, accuracy and harness they become null
+// ("there is no number"); among times and counters they are a programmer error (std::logic_error naming the
+// place).
 nlohmann::json to_json(const Result& result);
-// Checks against the schema built into the program, then writes whole or not at all. Throws SystemError; a result that its own schema
-// refuses is a programmer error and throws std::logic_error.
+// Checks against the schema built into the program, then writes whole or not at all. Throws SystemError; a
+// result that its own schema refuses is a programmer error and throws std::logic_error.
 void write_result(const Result& result, const std::filesystem::path& file);
-// Reads and checks a result. Throws UsageError naming file and JSON path.
+// Reads and checks a result: the schema, and what no schema can say (result_violations). Throws UsageError
+// naming file and JSON path.
 nlohmann::json read_result(const std::filesystem::path& file);
 
 const nlohmann::json& result_schema();
 
-// All violations of `schema` by `document`, one line each ("$.cases[0].lights: ..."); empty when valid. (valijson)
+// All violations of `schema` by `document`, one line each ("$.cases[0].lights: ..."); empty when valid.
+// (valijson)
 std::vector<std::string> schema_violations(const nlohmann::json& schema, const nlohmann::json& document);
+
+// The same against the result schema, and beyond it: case ids are unique; every time has a row for each of
+// `repeats_done`, and a number for each frame; counters have one for each frame (fewer only while the result
+// is not complete).
+std::vector<std::string> result_violations(const nlohmann::json& document);
 
 // Chrome trace events (opens in Perfetto): one process, rows "cpu" and "gpu".
 struct TraceEvent {
   std::string name, row;
-  double begin_ms = 0, duration_ms = 0;  // since the run began
+  double begin_ms = 0, duration_ms = 0;          // since the run began
   std::map<std::string, std::string> arguments;  // case, frame, repeat
 };
-void write_trace(const std::vector<TraceEvent>& events, const std::string& device_note, const std::filesystem::path& file);
+void write_trace(const std::vector<TraceEvent>& events, const std::string& device_note,
+                 const std::filesystem::path& file);
 
 // A table for people: one line a case, medians, with the device's type beside every time.
 std::string summary_table(const Result& result);

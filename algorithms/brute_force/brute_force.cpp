@@ -1,0 +1,43 @@
+#include "algorithms/brute_force/brute_force.h"
+
+#include "spirv/brute_force_shade.h"
+#include "spirv/brute_force_shade_counting.h"
+#include "spirv/brute_force_shade_fp64.h"
+#include "spirv/brute_force_shade_fp64_counting.h"
+
+namespace ml {
+namespace {
+
+class BruteForce final : public Algorithm {
+ public:
+  explicit BruteForce(const Parameters& parameters) : fp64_(parameters.choice("precision") == "fp64") {}
+
+  void prepare(const FrameInput& frame, UploadMemory&, Spans&) override { counters_.in_frustum = frame.lights.count(); }
+  PrepareCounters counters() const override { return counters_; }
+  std::vector<std::string> buffers() const override { return {}; }
+  ShadeShaders shade_shaders() const override {
+    if (fp64_) return {brute_force_shade_fp64, brute_force_shade_fp64_counting};
+    return {brute_force_shade, brute_force_shade_counting};
+  }
+
+ private:
+  bool fp64_;
+  PrepareCounters counters_;
+};
+
+}  // namespace
+
+AlgorithmEntry brute_force_entry() {
+  AlgorithmEntry entry;
+  entry.info.name = "brute_force";
+  entry.info.summary = "every light for every pixel: the reference";
+  entry.info.reference_only = true;
+  entry.info.gpu_stages = {"shade"};
+  entry.info.shapes = {"omni", "spot"};
+  entry.parameters = {ParameterInfo::choice("precision", "fp32", {"fp32", "fp64"},
+                                            "number type of the shading sums; fp64 needs a device with 64-bit floats")};
+  entry.create = [](const Parameters& parameters) { return std::make_unique<BruteForce>(parameters); };
+  return entry;
+}
+
+}  // namespace ml

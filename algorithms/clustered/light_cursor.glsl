@@ -1,0 +1,38 @@
+// The list of the pixel's froxel.
+#include "shaders/shared/slices.h"
+
+layout(constant_id = 16) const bool DUPLICATED = false;
+layout(scalar, binding = 16) readonly buffer Grid {
+  SliceMapping slice_mapping;
+  uint tile_size, tile_columns, slice_count;
+};
+layout(scalar, binding = 17) readonly buffer Offsets { uint froxel_offsets[]; };
+layout(scalar, binding = 18) readonly buffer Indices { uint froxel_indices[]; };
+layout(scalar, binding = 19) readonly buffer Duplicates { LightCore froxel_lights[]; };
+
+struct LightCursor {
+  uint next, end;
+};
+
+LightCursor light_begin(SurfacePoint point) {
+  uvec2 tile = point.pixel / tile_size;
+  uint froxel = (tile.y * tile_columns + tile.x) * slice_count + slice_of_depth(point.depth, slice_mapping);
+  LightCursor cursor = LightCursor(froxel_offsets[froxel], froxel_offsets[froxel + 1u]);
+  COUNT_LISTED(cursor.end - cursor.next);
+  return cursor;
+}
+
+// `light` is an index into lights[], or with duplicated data the place in the list itself.
+bool light_next(inout LightCursor cursor, out uint light, out float weight) {
+  weight = 1.0;
+  if (cursor.next >= cursor.end) return false;
+  light = DUPLICATED ? cursor.next : froxel_indices[cursor.next];
+  cursor.next++;
+  return true;
+}
+
+LightCore cursor_light(uint light) {
+  if (DUPLICATED) return froxel_lights[light];
+  return lights[light];
+}
+#define CURSOR_LIGHT(light) cursor_light(light)

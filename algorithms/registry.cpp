@@ -1,0 +1,30 @@
+// Every algorithm of the bench, in the order of tables. Adding one: its folder, its line here.
+#include <algorithm>
+
+#include "algorithms/algorithm.h"
+#include "algorithms/brute_force/brute_force.h"
+#include "algorithms/clustered/clustered.h"
+#include "algorithms/ideal/ideal.h"
+#include "harness/base/error.h"
+
+namespace ml {
+
+const std::vector<AlgorithmEntry>& algorithm_registry() {
+  static const std::vector<AlgorithmEntry> entries{
+      brute_force_entry(),
+      ideal_entry(),
+      clustered_entry(),
+  };
+  return entries;
+}
+
+const AlgorithmEntry& find_algorithm(const std::string& name, const std::string& place) {
+  std::vector<std::string> known;
+  for (const AlgorithmEntry& entry : algorithm_registry()) {
+    if (entry.info.name == name) return entry;
+    known.push_back(entry.info.name);
+  }
+  throw UsageError(place + ": unknown algorithm '" + name + "'" + suggestion(name, known));
+}
+
+}  // namespace ml

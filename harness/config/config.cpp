@@ -1,0 +1,155 @@
+#include "harness/config/config.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "harness/base/error.h"
+#include "harness/config/algorithm_list.h"
+#include "harness/config/json_text.h"
+#include "harness/config/keys.h"
+#include "harness/config/sweep.h"
+
+namespace ml {
+
+namespace {
+
+using nlohmann::json;
+
+std::string name_from(const std::string& source) {
+  std::string name = std::filesystem::path(source).stem().string().substr(0, 100);
+  for (char& c : name) {
+    bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+                 c == '_' || c == '-';
+    if (!plain) c = '-';
+  }
+  name.erase(0, name.find_first_not_of(".-"));
+  return name.empty() ? "config" : name;
+}
+
+// The whole document into a draft and its sweeps.
+void read_document(const Node& root, Draft& draft, Sweeps& sweeps) {
+  root.object();
+  for (const auto& [name, value] : root.json().items()) {
+    bool known =
+        name == "sweep" || name == "zip" ||
+        (name.find('.') == name.npos && std::any_of(config_keys().begin(), config_keys().end(),
+                                                    [&](const Key& key) { return key.path == name; }));
+    if (!known) unknown_key(root, "", name);
+  }
+  for (const Key& key : config_keys()) {
+    if (key.path.find('.') == key.path.npos && root.json().contains(key.path))
+      key.read(root.member(key.path), draft);
+  }
+  if (root.json().contains("sweep")) sweeps.read(root.member("sweep"), false);
+  if (root.json().contains("zip")) sweeps.read(root.member("zip"), true);
+}
+
+// JSON when it is JSON, else the text itself; what begins like a list, an object or a quoted text must be
+// JSON.
+json override_value(const std::string& text, const std::string& key) {
+  try {
+    return parse_json_text(text, "--set " + key);
+  } catch (const UsageError&) {
+    if (!text.empty() && (text[0] == '{' || text[0] == '[' || text[0] == '"')) throw;
+    return text;
+  }
+}
+
+void apply_override(const std::string& text, Draft& draft, Sweeps& sweeps) {
+  static const Source source{"--set", {}};
+  size_t equals = text.find('=');
+  if (equals == text.npos || equals == 0) throw UsageError("--set: '" + text + "': expected KEY=VALUE");
+  std::string path = text.substr(0, equals);
+  json value = override_value(text.substr(equals + 1), path);
+  Node node(value, source, "$" + json_path_key(path));
+  for (bool zipped : {false, true}) {
+    const std::string list = zipped ? "zip" : "sweep";
+    if (path == list) return sweeps.read(node, zipped);
+    if (path.starts_with(list + ".")) return sweeps.read_list(path.substr(list.size() + 1), node, zipped);
+  }
+  Key key = find_key(path, node);
+  if (key.section && path != "scene" && value.is_object()) {
+    for (const auto& [name, part] : value.items()) sweeps.forget(path + "." + name, node);
+  } else {
+    sweeps.forget(path, node);
+  }
+  key.read(node, draft);
+}
+
+// What no single key can be blamed for.
+void check_setup(const Setup& setup, const OutputSpec& outputs, const Source& source,
+                 const PointText& point) {
+  static const json nothing;
+  auto at = [&] {
+    std::string text = point();
+    return text.empty() ? "" : " (at " + text + ")";
+  };
+  auto check_frames = [&](const char* path, const std::vector<uint32_t>& frames) {
+    for (size_t i = 0; i < frames.size(); ++i) {
+      if (frames[i] < setup.camera.frames) continue;
+      Node(nothing, source, std::string(path) + "[" + std::to_string(i) + "]")
+          .fail("frame " + std::to_string(frames[i]) + " is not among the " +
+                std::to_string(setup.camera.frames) + " frames from 0 on" + at());
+    }
+  };
+  check_frames("$.outputs.heatmaps", outputs.heatmaps);
+  check_frames("$.outputs.images", outputs.images);
+  for (size_t i = 0; i < setup.algorithms.size(); ++i) {
+    const AlgorithmSpec& spec = setup.algorithms[i];
+    const AlgorithmEntry& entry = find_algorithm(spec.name, source.name + ": $.algorithms");
+    uint32_t most = entry.info.max_lights;
+    if (most > 0 && setup.lights.placement != Placement::gltf && setup.lights.count > most) {
+      Node(nothing, source, "$.lights.count")
+          .fail(std::to_string(setup.lights.count) + " lights are more than '" + spec.name +
+                "' can take: " + std::to_string(most) + at());
+    }
+    std::string wrong = entry.check ? entry.check(spec.parameters, setup.width, setup.height) : "";
+    if (!wrong.empty())
+      Node(nothing, source, "$.algorithms[" + std::to_string(i) + "]").fail(spec.name + ": " + wrong + at());
+  }
+}
+
+Config build_config(const json& document, const std::string& source_name,
+                    const std::filesystem::path& relative_to, const std::vector<std::string>& overrides) {
+  Source source{source_name, relative_to};
+  Draft draft;
+  draft.name = name_from(source_name);
+  draft.setup.scene.procedural = "canyon";
+  static const json all = "all";
+  draft.setup.algorithms = read_algorithms(Node(all, source, "$.algorithms"));
+  Sweeps sweeps;
+  read_document(Node(document, source), draft, sweeps);
+  for (const std::string& text : overrides) apply_override(text, draft, sweeps);
+  if (draft.setup.algorithms.empty())
+    throw UsageError(source_name + ": $.algorithms: there are no algorithms");
+
+  Config config;
+  config.name = draft.name;
+  config.measure = draft.measure;
+  config.outputs = draft.outputs;
+  sweeps.expand(draft, source, [&](const Setup& setup, const PointText& point) {
+    check_setup(setup, draft.outputs, source, point);
+    config.setups.push_back(setup);
+  });
+  config.resolved = json::object();
+  for (const Key& key : config_keys()) {
+    if (key.path.find('.') == key.path.npos) config.resolved[key.path] = key.write(draft);
+  }
+  sweeps.write(draft, config.resolved);
+  return config;
+}
+
+}  // namespace
+
+Config parse_config(const json& document, const std::string& source,
+                    const std::filesystem::path& relative_to) {
+  return build_config(document, source, relative_to, {});
+}
+
+Config parse_config_text(std::string_view text, const std::string& source,
+                         const std::filesystem::path& relative_to,
+                         const std::vector<std::string>& overrides) {
+  return build_config(parse_json_text(text, source), source, relative_to, overrides);
+}
+
+}  // namespace ml

@@ -1,0 +1,256 @@
+#include "harness/config/sections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "harness/base/error.h"
+
+namespace ml {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double farthest = 1e9;  // m, any coordinate
+constexpr uint32_t most_seed = 0xffffffffu;
+constexpr uint32_t most_frames = 100000;
+constexpr size_t most_keyframes = 1000;
+
+glm::dvec3 read_vector(const Node& node) {
+  node.list(3, 3);
+  return {node.item(0).real(-farthest, farthest), node.item(1).real(-farthest, farthest),
+          node.item(2).real(-farthest, farthest)};
+}
+
+json write_vector(const glm::dvec3& v) {
+  return json::array({v.x, v.y, v.z});
+}
+
+// A length in metres where 0 means "not given"; what a float would round to 0 is refused.
+float read_length(const Node& node) {
+  double metres = node.real(0, 1e6);
+  if (metres != 0 && metres < 1e-6) node.expected("0 or a number from 1e-06 to 1000000");
+  return static_cast<float>(metres);
+}
+
+void read_scene_name(const Node& node, SceneSpec& scene) {
+  std::string name = node.text(1, 100);
+  std::vector<std::string> known;
+  for (const SceneInfo& info : procedural_scenes()) known.push_back(info.name);
+  if (std::find(known.begin(), known.end(), name) == known.end()) {
+    node.fail("unknown scene '" + name + "'" + suggestion(name, known) +
+              " (a file is given as {\"gltf\": \"level.glb\"})");
+  }
+  scene.procedural = name;
+  scene.gltf.clear();
+  scene.gltf_scene = -1;
+}
+
+void read_scene_file(const Node& node, SceneSpec& scene) {
+  std::filesystem::path file(node.text(1, 4096));
+  scene.gltf = std::filesystem::absolute(node.source().relative_to / file).lexically_normal();
+  scene.procedural.clear();
+  try {
+    json(scene.gltf.string()).dump();
+  } catch (const json::exception&) {
+    node.fail("the folder's path is not UTF-8, and a result could not name it");
+  }
+}
+
+std::vector<CameraKey> read_keyframes(const Node& node) {
+  std::vector<CameraKey> keys;
+  for (size_t i = 0, count = node.list(1, most_keyframes); i < count; ++i) {
+    Node item = node.item(i);
+    item.object();
+    static const std::vector<std::string> names{"time", "position", "target"};
+    for (const auto& [key, value] : item.json().items()) {
+      if (std::find(names.begin(), names.end(), key) == names.end()) {
+        item.member(key).fail("unknown key" + suggestion(key, names));
+      }
+    }
+    for (const std::string& name : names) {
+      if (!item.json().contains(name)) item.fail("the key '" + name + "' is missing");
+    }
+    CameraKey key{item.member("time").real(-1e9, 1e9), read_vector(item.member("position")),
+                  read_vector(item.member("target"))};
+    if (!keys.empty() && key.time <= keys.back().time) {
+      item.member("time").expected(fmt::format("a time after the one before ({} s)", keys.back().time));
+    }
+    keys.push_back(key);
+  }
+  return keys;
+}
+
+json write_keyframes(const std::vector<CameraKey>& keys) {
+  json list = json::array();
+  for (const CameraKey& key : keys) {
+    list.push_back(
+        {{"time", key.time}, {"position", write_vector(key.position)}, {"target", write_vector(key.target)}});
+  }
+  return list;
+}
+
+// Frame numbers, each once.
+std::vector<uint32_t> read_frames(const Node& node) {
+  std::vector<uint32_t> frames;
+  for (size_t i = 0, count = node.list(0, most_frames); i < count; ++i) {
+    frames.push_back(node.item(i).unsigned_integer(0, most_frames - 1));
+  }
+  std::vector<uint32_t> sorted = frames;
+  std::sort(sorted.begin(), sorted.end());
+  if (auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end()) {
+    node.fail(fmt::format("frame {} is there twice", *twice));
+  }
+  return frames;
+}
+
+bool read_auto_off(const Node& node) {
+  static const std::vector<std::string> words{"auto", "off"};
+  return node.choice(words) == 0;
+}
+
+json write_auto_off(bool automatic) {
+  return automatic ? "auto" : "off";
+}
+
+template <typename Enum>
+Enum read_enum(const Node& node, const std::vector<std::string>& names) {
+  return static_cast<Enum>(node.choice(names));
+}
+
+template <typename Enum>
+json write_enum(Enum value, const std::vector<std::string>& names) {
+  return names[static_cast<size_t>(value)];
+}
+
+const std::vector<std::string>& timing_mode_names() {
+  static const std::vector<std::string> names{"stages", "whole"};
+  return names;
+}
+
+}  // namespace
+
+std::span<const Field<SceneSpec>> scene_fields() {
+  static constexpr auto fields = std::to_array<Field<SceneSpec>>({
+      {"name", read_scene_name,
+       [](const SceneSpec& s) { return s.procedural.empty() ? json() : json(s.procedural); }},
+      {"gltf", read_scene_file,
+       [](const SceneSpec& s) { return s.gltf.empty() ? json() : json(s.gltf.string()); }},
+      {"scene",
+       [](const Node& n, SceneSpec& s) {
+         if (s.gltf.empty()) n.fail("only a glTF file has several scenes");
+         s.gltf_scene = static_cast<int>(n.integer(-1, 1000000));
+       },
+       [](const SceneSpec& s) { return s.gltf.empty() ? json() : json(s.gltf_scene); }},
+      {"seed", [](const Node& n, SceneSpec& s) { s.seed = n.unsigned_integer(0, most_seed); },
+       [](const SceneSpec& s) { return json(s.seed); }},
+      {"offset", [](const Node& n, SceneSpec& s) { s.offset = read_vector(n); },
+       [](const SceneSpec& s) { return write_vector(s.offset); }},
+  });
+  return fields;
+}
+
+std::span<const Field<LightSpec>> light_fields() {
+  using L = LightSpec;
+  static constexpr auto fields = std::to_array<Field<L>>({
+      {"placement", [](const Node& n, L& l) { l.placement = read_enum<Placement>(n, placement_names()); },
+       [](const L& l) { return write_enum(l.placement, placement_names()); }},
+      {"count", [](const Node& n, L& l) { l.count = n.unsigned_integer(0, 1048576); },
+       [](const L& l) { return json(l.count); }},
+      {"sizing", [](const Node& n, L& l) { l.sizing = read_enum<Sizing>(n, sizing_names()); },
+       [](const L& l) { return write_enum(l.sizing, sizing_names()); }},
+      {"base_size", [](const Node& n, L& l) { l.base_size = read_length(n); },
+       [](const L& l) { return json(shortest_double(l.base_size)); }},
+      {"radius_ratio", [](const Node& n, L& l) { l.radius_ratio = static_cast<float>(n.real(1, 1000)); },
+       [](const L& l) { return json(shortest_double(l.radius_ratio)); }},
+      {"radius", [](const Node& n, L& l) { l.radius = read_length(n); },
+       [](const L& l) { return json(shortest_double(l.radius)); }},
+      {"height", [](const Node& n, L& l) { l.height = read_length(n); },
+       [](const L& l) { return json(shortest_double(l.height)); }},
+      {"spot_fraction", [](const Node& n, L& l) { l.spot_fraction = static_cast<float>(n.real(0, 1)); },
+       [](const L& l) { return json(shortest_double(l.spot_fraction)); }},
+      {"intensity", [](const Node& n, L& l) { l.intensity = static_cast<float>(n.real(1e-9, 1e9)); },
+       [](const L& l) { return json(shortest_double(l.intensity)); }},
+      {"seed", [](const Node& n, L& l) { l.seed = n.unsigned_integer(0, most_seed); },
+       [](const L& l) { return json(l.seed); }},
+      {"animate", [](const Node& n, L& l) { l.script = read_enum<LightScript>(n, light_script_names()); },
+       [](const L& l) { return write_enum(l.script, light_script_names()); }},
+  });
+  return fields;
+}
+
+std::span<const Field<CameraSpec>> camera_fields() {
+  static constexpr auto fields = std::to_array<Field<CameraSpec>>({
+      {"path",
+       [](const Node& n, CameraSpec& c) {
+         c.path = n.text(1, 100);
+         c.keyframes.clear();
+       },
+       [](const CameraSpec& c) { return c.keyframes.empty() ? json(c.path) : json(); }},
+      {"frames", [](const Node& n, CameraSpec& c) { c.frames = n.unsigned_integer(1, most_frames); },
+       [](const CameraSpec& c) { return json(c.frames); }},
+      {"keyframes",
+       [](const Node& n, CameraSpec& c) {
+         c.keyframes = read_keyframes(n);
+         c.path = CameraSpec().path;
+       },
+       [](const CameraSpec& c) { return c.keyframes.empty() ? json() : write_keyframes(c.keyframes); }},
+  });
+  return fields;
+}
+
+std::span<const Field<EffectsSpec>> effects_fields() {
+  using E = EffectsSpec;
+  static constexpr auto fields = std::to_array<Field<E>>({
+      {"spots", [](const Node& n, E& e) { e.spots = read_auto_off(n); },
+       [](const E& e) { return write_auto_off(e.spots); }},
+      {"specular", [](const Node& n, E& e) { e.specular = read_auto_off(n); },
+       [](const E& e) { return write_auto_off(e.specular); }},
+      {"alpha_mask", [](const Node& n, E& e) { e.alpha_mask = read_auto_off(n); },
+       [](const E& e) { return write_auto_off(e.alpha_mask); }},
+  });
+  return fields;
+}
+
+std::span<const Field<MeasureSpec>> measure_fields() {
+  using M = MeasureSpec;
+  static constexpr auto fields = std::to_array<Field<M>>({
+      {"warmup", [](const Node& n, M& m) { m.warmup = n.unsigned_integer(0, 1000); },
+       [](const M& m) { return json(m.warmup); }},
+      {"repeats", [](const Node& n, M& m) { m.repeats = n.unsigned_integer(1, 10000); },
+       [](const M& m) { return json(m.repeats); }},
+      {"threads", [](const Node& n, M& m) { m.threads = n.unsigned_integer(1, 256); },
+       [](const M& m) { return json(m.threads); }},
+      {"seed", [](const Node& n, M& m) { m.seed = n.unsigned_integer(0, most_seed); },
+       [](const M& m) { return json(m.seed); }},
+      {"mode", [](const Node& n, M& m) { m.mode = read_enum<TimingMode>(n, timing_mode_names()); },
+       [](const M& m) { return write_enum(m.mode, timing_mode_names()); }},
+  });
+  return fields;
+}
+
+std::span<const Field<OutputSpec>> output_fields() {
+  using O = OutputSpec;
+  static constexpr auto fields = std::to_array<Field<O>>({
+      {"heatmaps", [](const Node& n, O& o) { o.heatmaps = read_frames(n); },
+       [](const O& o) { return json(o.heatmaps); }},
+      {"images", [](const Node& n, O& o) { o.images = read_frames(n); },
+       [](const O& o) { return json(o.images); }},
+      {"trace", [](const Node& n, O& o) { o.trace = n.boolean(); }, [](const O& o) { return json(o.trace); }},
+  });
+  return fields;
+}
+
+std::string scene_label(const SceneSpec& scene) {
+  return scene.gltf.empty() ? scene.procedural : scene.gltf.stem().string();
+}
+
+void read_resolution(const Node& node, Setup& setup) {
+  node.list(2, 2);
+  setup.width = node.item(0).unsigned_integer(1, 16384);
+  setup.height = node.item(1).unsigned_integer(1, 16384);
+}
+
+}  // namespace ml

@@ -1,0 +1,31 @@
+// The tables of the sections: one line per key.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "harness/config/config.h"
+#include "harness/config/node.h"
+
+namespace ml {
+
+template <typename Spec>
+struct Field {
+  const char* key;
+  void (*read)(const Node&, Spec&);
+  nlohmann::json (*write)(const Spec&);  // null: does not apply
+};
+
+std::span<const Field<SceneSpec>> scene_fields();
+std::span<const Field<LightSpec>> light_fields();
+std::span<const Field<CameraSpec>> camera_fields();
+std::span<const Field<EffectsSpec>> effects_fields();
+std::span<const Field<MeasureSpec>> measure_fields();
+std::span<const Field<OutputSpec>> output_fields();
+
+// What a configuration calls the scene: its name, or the stem of its file.
+std::string scene_label(const SceneSpec& scene);
+
+void read_resolution(const Node& node, Setup& setup);
+
+}  // namespace ml

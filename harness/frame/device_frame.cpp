@@ -1,0 +1,199 @@
+#include "harness/frame/device_frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "harness/base/error.h"
+#include "shaders/shared/contributing.h"
+#include "spirv/aov_comp.h"
+#include "spirv/contributing_bounds.h"
+#include "spirv/contributing_count.h"
+#include "spirv/contributing_fill.h"
+#include "spirv/contributing_masks.h"
+
+namespace ml {
+namespace {
+
+uint32_t groups(uint32_t items, uint32_t per_group) {
+  return (items + per_group - 1) / per_group;
+}
+
+std::vector<gpu::Constant> effect_constants(const Effects& effects) {
+  return {{0, effects.spots}, {1, effects.specular}};
+}
+
+template <typename Element>
+void upload(gpu::UploadBuffer& buffer, std::span<const Element> elements) {
+  std::span<std::byte> memory = buffer.map(elements.size_bytes());
+  if (!elements.empty()) std::memcpy(memory.data(), elements.data(), elements.size_bytes());
+}
+
+}  // namespace
+
+std::vector<std::string> Effects::names() const {
+  std::vector<std::string> list{"omni"};
+  if (spots) list.emplace_back("spot");
+  if (specular) list.emplace_back("specular");
+  if (alpha_mask) list.emplace_back("alpha_mask");
+  return list;
+}
+
+struct DeviceFrame::ContributingPasses {
+  gpu::ComputeProgram bounds, masks, count, fill;
+  gpu::Image count_image, hash_image;
+  std::unique_ptr<gpu::Buffer> block_bounds, mask_words;
+  gpu::UploadBuffer offsets;
+  std::unique_ptr<gpu::Buffer> indices;
+
+  ContributingPasses(gpu::Device& device, const Effects& effects, uint32_t width, uint32_t height)
+      : bounds(device, contributing_bounds, "contributing: bounds", effect_constants(effects)),
+        masks(device, contributing_masks, "contributing: masks", effect_constants(effects)),
+        count(device, contributing_count, "contributing: count", effect_constants(effects)),
+        fill(device, contributing_fill, "contributing: fill", effect_constants(effects)),
+        count_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage, "contributing counts"),
+        hash_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage, "contributing hashes"),
+        offsets(device, "offsets of the contributing lists") {
+    offsets.map(16);
+    indices = std::make_unique<gpu::Buffer>(device, 16, gpu::MemoryKind::device, "contributing lists");
+  }
+
+  // Grows, never shrinks.
+  static void reserve(gpu::Device& device, std::unique_ptr<gpu::Buffer>& buffer, size_t bytes, const char* name) {
+    if (!buffer || buffer->bytes() < bytes)
+      buffer = std::make_unique<gpu::Buffer>(device, std::max<size_t>(bytes, 16), gpu::MemoryKind::device, name);
+  }
+};
+
+DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const Effects& effects, uint32_t width, uint32_t height)
+    : device_(device),
+      effects_(effects),
+      level_(device, scene, effects.alpha_mask),
+      targets_(device, width, height),
+      commands_(device),
+      view_(device, sizeof(gpu_data::ViewData), gpu::MemoryKind::upload, "view"),
+      lights_(device, "lights"),
+      extras_(device, "light extras"),
+      passes_(std::make_unique<ContributingPasses>(device, effects, width, height)) {}
+
+DeviceFrame::~DeviceFrame() = default;
+
+void DeviceFrame::load(const FrameInput& input) {
+  std::memcpy(view_.mapped().data(), &input.view, sizeof input.view);
+  upload(lights_, input.lights.core);
+  upload(extras_, input.lights.extra);
+  commands_.begin(gpu::Timing::none);
+  commands_.transfer(lights_);
+  commands_.transfer(extras_);
+  level_.record_gbuffer(commands_, view_, targets_);
+  commands_.submit();
+}
+
+const CounterTargets& DeviceFrame::counters() {
+  if (!counters_) counters_ = std::make_unique<CounterTargets>(device_, targets_.width(), targets_.height());
+  return *counters_;
+}
+
+gpu::Bindings DeviceFrame::bindings() const {
+  gpu::Bindings list{{"View", view_},
+                     {"Depth", targets_.depth},
+                     {"Surface", targets_.surface},
+                     {"Lights", lights_},
+                     {"Extras", extras_},
+                     {"Result", targets_.result},
+                     {"ListOffsets", passes_->offsets},
+                     {"ListIndices", *passes_->indices}};
+  if (counters_)
+    for (gpu::Binding binding : {gpu::Binding{"Listed", counters_->listed}, gpu::Binding{"Tested", counters_->tested},
+                                 gpu::Binding{"Contributing", counters_->contributing}, gpu::Binding{"Nodes", counters_->nodes},
+                                 gpu::Binding{"Hash", counters_->hash}, gpu::Binding{"Traversal", counters_->traversal}})
+      list.push_back(binding);
+  return list;
+}
+
+uint64_t DeviceFrame::target_bytes() const {
+  return targets_.depth.bytes() + targets_.surface.bytes() + targets_.result.bytes();
+}
+
+const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input, bool lists) {
+  ContributingPasses& p = *passes_;
+  uint32_t width = targets_.width(), height = targets_.height();
+  gpu_data::ContributingPush push{{groups(width, ML_BLOCK), groups(height, ML_BLOCK)},
+                                  groups(static_cast<uint32_t>(input.lights.count()), 32)};
+  uint32_t groups_across = groups(push.blocks.x, ML_GROUP), groups_down = groups(push.blocks.y, ML_GROUP);
+  p.reserve(device_, p.block_bounds, size_t{push.blocks.x} * push.blocks.y * sizeof(gpu_data::BlockBounds), "block bounds");
+  p.reserve(device_, p.mask_words, size_t{groups_across} * groups_down * push.mask_words * 4, "light masks of the block groups");
+  auto with_lists = [&] {
+    gpu::Bindings list = bindings();
+    list.emplace_back("Bounds", *p.block_bounds);
+    list.emplace_back("Masks", *p.mask_words);
+    list.emplace_back("Offsets", p.offsets);
+    list.emplace_back("Indices", *p.indices);
+    // The counting lap of an algorithm has counters of the same names; these are the reference's own.
+    std::erase_if(list, [](const gpu::Binding& b) { return b.name == "Contributing" || b.name == "Hash"; });
+    list.emplace_back("Contributing", p.count_image);
+    list.emplace_back("Hash", p.hash_image);
+    return list;
+  };
+  gpu::Bindings list = with_lists();
+  commands_.begin(gpu::Timing::none);
+  commands_.dispatch(p.bounds, list, push, push.blocks.x, push.blocks.y);
+  commands_.dispatch(p.masks, list, push, groups_across, groups_down);
+  commands_.dispatch(p.count, list, push, push.blocks.x, push.blocks.y);
+  commands_.submit();
+  contributing_.count = read_words(p.count_image);
+  contributing_.hash = read_words(p.hash_image);
+  if (!lists) return contributing_;
+
+  size_t pixels = contributing_.count.size();
+  auto offsets = std::span(reinterpret_cast<uint32_t*>(p.offsets.map((pixels + 1) * 4).data()), pixels + 1);
+  uint64_t total = 0;
+  for (size_t i = 0; i < pixels; ++i) {
+    offsets[i] = static_cast<uint32_t>(total);
+    total += contributing_.count[i];
+  }
+  offsets[pixels] = static_cast<uint32_t>(total);
+  if (total * 4 > device_.limits().storage_buffer_range)
+    throw SystemError(fmt::format("the lists of contributing lights need {} bytes at {}x{} px; one storage buffer of '{}' holds {}",
+                                  total * 4, width, height, device_.info().name, device_.limits().storage_buffer_range));
+  p.reserve(device_, p.indices, total * 4, "contributing lists");
+  list = with_lists();
+  commands_.begin(gpu::Timing::none);
+  commands_.transfer(p.offsets);
+  commands_.dispatch(p.fill, list, push, push.blocks.x, push.blocks.y);
+  commands_.submit();
+  return contributing_;
+}
+
+void DeviceFrame::read_image(const gpu::Image& image) {
+  if (!readback_ || readback_->bytes() < image.bytes())
+    readback_ = std::make_unique<gpu::Buffer>(device_, image.bytes(), gpu::MemoryKind::readback, "readback");
+  commands_.begin(gpu::Timing::none);
+  commands_.read_image(image, *readback_);
+  commands_.submit();
+}
+
+std::vector<uint32_t> DeviceFrame::read_words(const gpu::Image& image) {
+  read_image(image);
+  std::vector<uint32_t> words(image.bytes() / 4);
+  std::memcpy(words.data(), readback_->mapped().data(), image.bytes());
+  return words;
+}
+
+std::vector<float> DeviceFrame::read_floats(const gpu::Image& image) {
+  read_image(image);
+  std::vector<float> floats(image.bytes() / 4);
+  std::memcpy(floats.data(), readback_->mapped().data(), image.bytes());
+  return floats;
+}
+
+std::vector<float> DeviceFrame::read_aov(Aov kind) {
+  gpu::ComputeProgram program(device_, aov_comp, "aov", {{0, static_cast<uint32_t>(kind)}});
+  commands_.begin(gpu::Timing::none);
+  commands_.dispatch(program, bindings(), std::span<const std::byte>{}, groups(targets_.width(), 8), groups(targets_.height(), 8));
+  commands_.submit();
+  return read_floats(targets_.result);
+}
+
+}  // namespace ml

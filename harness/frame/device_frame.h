@@ -1,0 +1,78 @@
+// One setup on the device: level, targets, the frame's view and lights, and everything that all algorithms share.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "algorithms/algorithm.h"
+#include "harness/frame/level.h"
+#include "harness/frame/targets.h"
+#include "harness/gpu/commands.h"
+
+namespace ml {
+
+// Which effects the content calls for; compiled in by specialization constants.
+struct Effects {
+  bool spots = false;
+  bool specular = true;
+  bool alpha_mask = false;
+  std::vector<std::string> names() const;  // those that are on, "omni" first
+};
+
+// Per-pixel counts of contributing lights, found without any algorithm under test, and on demand the lists themselves.
+struct ContributingLights {
+  std::vector<uint32_t> count;  // per pixel
+  std::vector<uint32_t> hash;   // per pixel: sum of light_hash over the set
+};
+
+class DeviceFrame {
+ public:
+  DeviceFrame(gpu::Device& device, const Scene& scene, const Effects& effects, uint32_t width, uint32_t height);
+  ~DeviceFrame();
+
+  // Uploads view and lights of the frame and draws the g-buffer.
+  void load(const FrameInput& input);
+
+  // Finds the contributing lights of the loaded frame (bounds of each 8x8 block's points against every light, then every pixel against
+  // what is left). With `lists` their indices stay on the device for shading passes that bind "ListOffsets" and "ListIndices". Throws
+  // SystemError when the lists are larger than one storage buffer of the device.
+  const ContributingLights& find_contributing(const FrameInput& input, bool lists);
+  const ContributingLights& contributing() const { return contributing_; }
+
+  gpu::Device& device() { return device_; }
+  gpu::Commands& commands() { return commands_; }
+  const FrameTargets& targets() const { return targets_; }
+  const CounterTargets& counters();
+  const Effects& effects() const { return effects_; }
+  // The resources that every shading pass may bind.
+  gpu::Bindings bindings() const;
+  const gpu::Buffer& view() const { return view_; }
+  uint64_t light_bytes() const { return lights_.used() + extras_.used(); }
+  uint64_t target_bytes() const;
+
+  // Reads a picture back, row by row.
+  std::vector<uint32_t> read_words(const gpu::Image& image);
+  std::vector<float> read_floats(const gpu::Image& image);
+  // Position, normal, albedo or material of the g-buffer, four floats a pixel (the fourth is the view depth, 0 for the sky).
+  enum class Aov : uint32_t { position = 0, normal = 1, albedo = 2, material = 3 };
+  std::vector<float> read_aov(Aov kind);
+
+ private:
+  void read_image(const gpu::Image& image);
+
+  gpu::Device& device_;
+  Effects effects_;
+  Level level_;
+  FrameTargets targets_;
+  std::unique_ptr<CounterTargets> counters_;
+  gpu::Commands commands_;
+  gpu::Buffer view_;
+  gpu::UploadBuffer lights_, extras_;
+  std::unique_ptr<gpu::Buffer> readback_;
+  struct ContributingPasses;
+  std::unique_ptr<ContributingPasses> passes_;
+  ContributingLights contributing_;
+};
+
+}  // namespace ml

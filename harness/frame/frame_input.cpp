@@ -1,0 +1,94 @@
+#include "harness/frame/frame_input.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace ml {
+namespace {
+
+// Floats read past the end by vector code: 16 lanes of 4 bytes.
+constexpr size_t padding = 16;
+
+gpu_data::LightExtra cone_of(const Light& light) {
+  gpu_data::LightExtra extra{};
+  extra.direction = light.direction;
+  double inner = std::cos(static_cast<double>(light.inner_angle)), outer = std::cos(static_cast<double>(light.outer_angle));
+  // A cone without a soft edge still needs a finite slope.
+  double scale = 1.0 / std::max(inner - outer, 1e-6);
+  extra.cone_scale = static_cast<float>(scale);
+  extra.cone_offset = static_cast<float>(-outer * scale);
+  extra.cos_outer = static_cast<float>(outer);
+  return extra;
+}
+
+}  // namespace
+
+gpu_data::ViewData view_data(const Camera& camera, uint32_t width, uint32_t height, uint32_t light_count) {
+  const Projection& p = camera.projection;
+  gpu_data::ViewData view{};
+  view.right = camera.right;
+  view.up = camera.up;
+  view.forward = camera.forward;
+  view.camera = camera.position;
+  view.left_edge = p.left;
+  view.right_edge = p.right;
+  view.bottom_edge = p.bottom;
+  view.top_edge = p.top;
+  view.resolution = {width, height};
+  view.near = p.near;
+  view.far = p.far;
+  view.orthographic = p.kind == ProjectionKind::orthographic;
+  view.light_count = light_count;
+  return view;
+}
+
+void FrameLightStorage::fill(const std::vector<Light>& lights, const glm::vec3& camera) {
+  assert(lights.size() <= gpu_data::uint{ML_LIGHT_ID_MASK} + 1);
+  count_ = lights.size();
+  for (std::vector<float>* column : {&x_, &y_, &z_, &radius_}) column->resize(count_ + padding);
+  core_.resize(count_);
+  bool spots = std::any_of(lights.begin(), lights.end(), [](const Light& light) { return light.shape == LightShape::spot; });
+  extra_.resize(spots ? count_ : 0);
+  const glm::dvec3 eye(camera);
+  for (size_t i = 0; i < count_; ++i) {
+    const Light& light = lights[i];
+    glm::vec3 position(light.position - eye);
+    x_[i] = position.x;
+    y_[i] = position.y;
+    z_[i] = position.z;
+    radius_[i] = light.radius;
+    core_[i] = {position, light.radius, light.intensity, static_cast<uint32_t>(i) | static_cast<uint32_t>(light.shape) << 24};
+    if (spots && light.shape == LightShape::spot) extra_[i] = cone_of(light);
+  }
+}
+
+FrameLights FrameLightStorage::lights() const {
+  FrameLights lights;
+  lights.x = std::span(x_).first(count_);
+  lights.y = std::span(y_).first(count_);
+  lights.z = std::span(z_).first(count_);
+  lights.radius = std::span(radius_).first(count_);
+  lights.core = core_;
+  lights.extra = extra_;
+  return lights;
+}
+
+FrameSequence::FrameSequence(const Scene& scene, const LightSet& lights, const CameraPath& path, uint32_t frames, uint32_t width,
+                             uint32_t height, Threads& threads)
+    : scene_(scene), set_(lights), path_(path), frames_(frames), width_(width), height_(height) {
+  input_.threads = &threads;
+}
+
+const FrameInput& FrameSequence::at(uint32_t index) {
+  assert(index < frames_);
+  camera_ = path_.sample(index, frames_, width_, height_, scene_.near, scene_.far);
+  set_.at(index, frames_, path_.duration(), active_);
+  storage_.fill(active_, camera_.position);
+  input_.index = index;
+  input_.view = view_data(camera_, width_, height_, static_cast<uint32_t>(active_.size()));
+  input_.lights = storage_.lights();
+  return input_;
+}
+
+}  // namespace ml

@@ -1,0 +1,36 @@
+// The pictures of one resolution on the device.
+#pragma once
+
+#include "harness/gpu/resources.h"
+
+namespace ml {
+
+// G-buffer and HDR result.
+struct FrameTargets {
+  gpu::Image depth, surface, result;
+  FrameTargets(gpu::Device& device, uint32_t width, uint32_t height)
+      : depth(device, width, height, gpu::Format::d32_float, gpu::ImageUse::attachment, "depth"),
+        surface(device, width, height, gpu::Format::rg32_uint, gpu::ImageUse::attachment, "surface"),
+        result(device, width, height, gpu::Format::rgba32_float, gpu::ImageUse::storage, "result") {}
+  uint32_t width() const { return depth.width(); }
+  uint32_t height() const { return depth.height(); }
+};
+
+// What the counting variant of the shading loop writes, one number a pixel.
+struct CounterTargets {
+  gpu::Image listed, tested, contributing, nodes, hash, traversal;
+  CounterTargets(gpu::Device& device, uint32_t width, uint32_t height)
+      : listed(counter(device, width, height, "listed")),
+        tested(counter(device, width, height, "tested")),
+        contributing(counter(device, width, height, "contributing")),
+        nodes(counter(device, width, height, "nodes")),
+        hash(counter(device, width, height, "hash")),
+        traversal(counter(device, width, height, "traversal")) {}
+
+ private:
+  static gpu::Image counter(gpu::Device& device, uint32_t width, uint32_t height, const char* name) {
+    return {device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage, name};
+  }
+};
+
+}  // namespace ml

@@ -1,0 +1,113 @@
+// One command buffer, one submission in flight: record, submit, wait, read the times.
+//
+// A pass is one call: dispatch(program, bindings, push constants, groups). Passes are ordered by full memory barriers, so that an
+// algorithm writes no synchronisation of its own.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "harness/gpu/program.h"
+#include "harness/gpu/resources.h"
+
+namespace ml::gpu {
+
+// A resource for the shader variable (or block) of that name.
+struct Binding {
+  std::string_view name;
+  const Buffer* buffer = nullptr;
+  const Image* image = nullptr;
+  Binding(std::string_view n, const Buffer& b) : name(n), buffer(&b) {}
+  Binding(std::string_view n, const UploadBuffer& b) : name(n), buffer(&b.shader()) {}
+  Binding(std::string_view n, const Image& i) : name(n), image(&i) {}
+};
+using Bindings = std::vector<Binding>;
+
+// Where the GPU's time is stamped.
+enum class Timing {
+  none,    // no stamps
+  stages,  // every span stands alone between full barriers
+  whole,   // only the whole submission is stamped; spans cost nothing
+};
+
+// Times of one submission, in milliseconds.
+struct SubmissionTimes {
+  std::vector<std::pair<std::string, double>> spans;  // in order of recording, sums by name; empty unless Timing::stages
+  double whole = 0;  // first to last stamp; 0 when not timed
+  double fence = 0;  // CPU clock from submit to fence
+};
+
+struct DrawCall {
+  uint32_t first_index = 0, index_count = 0;
+  bool double_sided = false;
+  const RasterProgram* program = nullptr;
+  Bindings bindings;
+  std::vector<std::byte> push;
+};
+
+struct RasterTargets {
+  std::vector<const Image*> colors;  // cleared to 0
+  const Image* depth = nullptr;      // cleared to 0, the farthest
+};
+
+class Commands {
+ public:
+  explicit Commands(Device& device);
+  ~Commands();
+  Commands(const Commands&) = delete;
+  Commands& operator=(const Commands&) = delete;
+
+  void begin(Timing timing);
+  // Submits, waits for the fence and reads the stamps. Throws SystemError when the device is lost.
+  SubmissionTimes submit();
+
+  // Compute. `bindings` may name more than the program uses; everything it uses must be there (std::logic_error with the name).
+  void dispatch(const ComputeProgram& program, const Bindings& bindings, std::span<const std::byte> push, uint32_t groups_x,
+                uint32_t groups_y = 1, uint32_t groups_z = 1);
+  template <typename Push>
+  void dispatch(const ComputeProgram& program, const Bindings& bindings, const Push& push, uint32_t groups_x, uint32_t groups_y = 1,
+                uint32_t groups_z = 1) {
+    static_assert(std::is_trivially_copyable_v<Push>);
+    dispatch(program, bindings, std::as_bytes(std::span(&push, 1)), groups_x, groups_y, groups_z);
+  }
+
+  // Clears the targets and draws.
+  void raster(const RasterTargets& targets, const Buffer& vertices, const Buffer& indices, std::span<const DrawCall> draws);
+
+  void clear(const Image& image);                         // all bits 0
+  void fill(const Buffer& buffer, uint32_t word);
+  void transfer(const UploadBuffer& buffer);              // to the device-local twin, where there is one
+  void read_image(const Image& image, const Buffer& into);  // tightly packed rows
+  void write_image(const Buffer& from, const Image& image);
+  void read_buffer(const Buffer& buffer, size_t bytes, const Buffer& into);
+
+  // Names the passes until the returned object dies; spans do not nest.
+  class Span {
+   public:
+    ~Span() { commands_.end_span(); }
+    Span(const Span&) = delete;
+    Span& operator=(const Span&) = delete;
+
+   private:
+    friend class Commands;
+    explicit Span(Commands& commands) : commands_(commands) {}
+    Commands& commands_;
+  };
+  [[nodiscard]] Span span(std::string_view name);
+
+ private:
+  friend class Span;
+  void end_span();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ml::gpu

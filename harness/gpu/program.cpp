@@ -1,0 +1,171 @@
+#include "harness/gpu/program.h"
+
+#include <fmt/format.h>
+#include <spirv_cross_c.h>
+
+#include <algorithm>
+
+#include "harness/gpu/vulkan.h"
+
+namespace ml::gpu {
+namespace {
+
+// A parsed SPIR-V module; owns what SPIRV-Cross allocates.
+class Reflection {
+ public:
+  Reflection(std::span<const uint32_t> spirv, const std::string& program) {
+    if (spvc_context_create(&context_) != SPVC_SUCCESS) throw std::logic_error("SPIRV-Cross has no memory");
+    spvc_parsed_ir ir = nullptr;
+    if (spvc_context_parse_spirv(context_, spirv.data(), spirv.size(), &ir) != SPVC_SUCCESS ||
+        spvc_context_create_compiler(context_, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP, &compiler_) != SPVC_SUCCESS ||
+        spvc_compiler_create_shader_resources(compiler_, &resources_) != SPVC_SUCCESS)
+      throw std::logic_error("SPIRV-Cross cannot read " + program);
+  }
+  ~Reflection() { spvc_context_destroy(context_); }
+  Reflection(const Reflection&) = delete;
+  Reflection& operator=(const Reflection&) = delete;
+
+  std::span<const spvc_reflected_resource> list(spvc_resource_type type) const {
+    const spvc_reflected_resource* first = nullptr;
+    size_t count = 0;
+    spvc_resources_get_resource_list_for_type(resources_, type, &first, &count);
+    return {first, count};
+  }
+  uint32_t binding(spvc_variable_id id) const { return spvc_compiler_get_decoration(compiler_, id, SpvDecorationBinding); }
+  // The variable's name; for a block without an instance name, the block's.
+  std::string name(const spvc_reflected_resource& resource) const {
+    const char* variable = spvc_compiler_get_name(compiler_, resource.id);
+    return variable && *variable ? variable : resource.name;
+  }
+  uint32_t bytes(const spvc_reflected_resource& resource) const {
+    size_t size = 0;
+    spvc_compiler_get_declared_struct_size(compiler_, spvc_compiler_get_type_handle(compiler_, resource.base_type_id), &size);
+    return static_cast<uint32_t>(size);
+  }
+
+ private:
+  spvc_context context_ = nullptr;
+  spvc_compiler compiler_ = nullptr;
+  spvc_resources resources_ = nullptr;
+};
+
+struct Specialization {
+  std::vector<vk::SpecializationMapEntry> entries;
+  std::vector<uint32_t> values;
+  vk::SpecializationInfo info;
+  explicit Specialization(const std::vector<Constant>& constants) {
+    for (const Constant& constant : constants) {
+      entries.emplace_back(constant.id, static_cast<uint32_t>(values.size() * 4), 4);
+      values.push_back(constant.value);
+    }
+    info = vk::SpecializationInfo(static_cast<uint32_t>(entries.size()), entries.data(), values.size() * 4, values.data());
+  }
+};
+
+vk::raii::ShaderModule make_module(const Device::Impl& device, std::span<const uint32_t> spirv) {
+  return {device.device, vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data())};
+}
+
+}  // namespace
+
+void Layout::add_module(std::span<const uint32_t> spirv, vk::ShaderStageFlagBits stage, const std::string& program) {
+  Reflection reflection(spirv, program);
+  const std::pair<spvc_resource_type, vk::DescriptorType> kinds[] = {
+      {SPVC_RESOURCE_TYPE_STORAGE_BUFFER, vk::DescriptorType::eStorageBuffer},
+      {SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, vk::DescriptorType::eUniformBuffer},
+      {SPVC_RESOURCE_TYPE_STORAGE_IMAGE, vk::DescriptorType::eStorageImage},
+      {SPVC_RESOURCE_TYPE_SAMPLED_IMAGE, vk::DescriptorType::eCombinedImageSampler},
+  };
+  for (const auto& [kind, type] : kinds)
+    for (const spvc_reflected_resource& resource : reflection.list(kind)) {
+      BindingSlot& slot = slots[reflection.name(resource)];
+      slot.binding = reflection.binding(resource.id);
+      slot.type = type;
+      slot.stages |= stage;
+    }
+  for (const spvc_reflected_resource& resource : reflection.list(SPVC_RESOURCE_TYPE_PUSH_CONSTANT)) {
+    push_bytes = std::max(push_bytes, (reflection.bytes(resource) + 3) / 4 * 4);
+    push_stages |= stage;
+  }
+}
+
+void Layout::create(Device::Impl& device) {
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  for (const auto& [name, slot] : slots) bindings.emplace_back(slot.binding, slot.type, 1, slot.stages);
+  set_layout = vk::raii::DescriptorSetLayout(device.device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
+  vk::PushConstantRange range(push_stages, 0, push_bytes);
+  vk::PipelineLayoutCreateInfo info({}, *set_layout);
+  if (push_bytes) info.setPushConstantRanges(range);
+  pipeline_layout = vk::raii::PipelineLayout(device.device, info);
+}
+
+ComputeProgram::ComputeProgram(Device& owner, std::span<const uint32_t> spirv, const std::string& name,
+                               const std::vector<Constant>& constants)
+    : name_(name), impl_(std::make_unique<Impl>()) {
+  Device::Impl& device = owner.impl();
+  impl_->layout.add_module(spirv, vk::ShaderStageFlagBits::eCompute, name);
+  impl_->layout.create(device);
+  Specialization specialization(constants);
+  try {
+    vk::raii::ShaderModule module = make_module(device, spirv);
+    vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &specialization.info);
+    impl_->pipeline = vk::raii::Pipeline(device.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *impl_->layout.pipeline_layout));
+  } catch (const vk::Error& error) {
+    throw SystemError(fmt::format("the device refuses the program {}: {}", name, error.what()));
+  }
+}
+
+ComputeProgram::~ComputeProgram() = default;
+ComputeProgram::ComputeProgram(ComputeProgram&&) noexcept = default;
+ComputeProgram& ComputeProgram::operator=(ComputeProgram&&) noexcept = default;
+
+RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex, std::span<const uint32_t> fragment,
+                             const std::string& name, const RasterState& state, const std::vector<Constant>& constants)
+    : name_(name), impl_(std::make_unique<Impl>()) {
+  Device::Impl& device = owner.impl();
+  using Stage = vk::ShaderStageFlagBits;
+  impl_->layout.add_module(vertex, Stage::eVertex, name);
+  impl_->layout.add_module(fragment, Stage::eFragment, name);
+  impl_->layout.create(device);
+  Specialization specialization(constants);
+  try {
+    vk::raii::ShaderModule vertex_module = make_module(device, vertex), fragment_module = make_module(device, fragment);
+    std::array stages{vk::PipelineShaderStageCreateInfo({}, Stage::eVertex, *vertex_module, "main", &specialization.info),
+                      vk::PipelineShaderStageCreateInfo({}, Stage::eFragment, *fragment_module, "main", &specialization.info)};
+    vk::VertexInputBindingDescription vertex_binding(0, state.vertex_stride, vk::VertexInputRate::eVertex);
+    std::vector<vk::VertexInputAttributeDescription> attributes;
+    for (uint32_t i = 0; i < state.attributes.size(); ++i)
+      attributes.emplace_back(i, 0, state.attributes[i].components == 2 ? vk::Format::eR32G32Sfloat : vk::Format::eR32G32B32Sfloat,
+                              state.attributes[i].offset);
+    vk::PipelineVertexInputStateCreateInfo input({}, vertex_binding, attributes);
+    vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
+    vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
+    // Counter-clockwise in a y-up world is clockwise in Vulkan's y-down pictures; the projection flips y, so the file's order stays.
+    vk::PipelineRasterizationStateCreateInfo raster({}, VK_FALSE, VK_FALSE, vk::PolygonMode::eFill, vk::CullModeFlagBits::eBack,
+                                                    vk::FrontFace::eCounterClockwise, VK_FALSE, 0, 0, 0, 1);
+    vk::PipelineMultisampleStateCreateInfo samples({}, vk::SampleCountFlagBits::e1);
+    vk::PipelineDepthStencilStateCreateInfo depth({}, VK_TRUE, VK_TRUE, vk::CompareOp::eGreater);
+    using Component = vk::ColorComponentFlagBits;
+    vk::PipelineColorBlendAttachmentState opaque;
+    opaque.colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA;
+    std::vector<vk::PipelineColorBlendAttachmentState> blends(state.colors.size(), opaque);
+    vk::PipelineColorBlendStateCreateInfo blend({}, VK_FALSE, vk::LogicOp::eCopy, blends);
+    std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor, vk::DynamicState::eCullMode};
+    vk::PipelineDynamicStateCreateInfo dynamic_state({}, dynamic);
+    std::vector<vk::Format> colors;
+    for (Format format : state.colors) colors.push_back(vulkan_format(format));
+    vk::PipelineRenderingCreateInfo rendering(0, colors, vulkan_format(state.depth));
+    vk::GraphicsPipelineCreateInfo info({}, stages, &input, &assembly, nullptr, &viewport, &raster, &samples, &depth, &blend,
+                                        &dynamic_state, *impl_->layout.pipeline_layout);
+    info.pNext = &rendering;
+    impl_->pipeline = vk::raii::Pipeline(device.device, nullptr, info);
+  } catch (const vk::Error& error) {
+    throw SystemError(fmt::format("the device refuses the program {}: {}", name, error.what()));
+  }
+}
+
+RasterProgram::~RasterProgram() = default;
+RasterProgram::RasterProgram(RasterProgram&&) noexcept = default;
+RasterProgram& RasterProgram::operator=(RasterProgram&&) noexcept = default;
+
+}  // namespace ml::gpu

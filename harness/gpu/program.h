@@ -1,0 +1,68 @@
+// Compute and raster programs. Their descriptor layouts come from reflection of the SPIR-V, so a pass names what it binds.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/gpu/device.h"
+#include "harness/gpu/resources.h"
+
+namespace ml::gpu {
+
+// A value for `layout(constant_id = id)`.
+struct Constant {
+  uint32_t id;
+  uint32_t value;
+};
+
+class ComputeProgram {
+ public:
+  // Throws SystemError when the device refuses the module.
+  ComputeProgram(Device& device, std::span<const uint32_t> spirv, const std::string& name, const std::vector<Constant>& constants = {});
+  ~ComputeProgram();
+  ComputeProgram(ComputeProgram&&) noexcept;
+  ComputeProgram& operator=(ComputeProgram&&) noexcept;
+  const std::string& name() const { return name_; }
+
+  struct Impl;
+  Impl& impl() const { return *impl_; }
+
+ private:
+  std::string name_;
+  std::unique_ptr<Impl> impl_;
+};
+
+struct VertexAttribute {
+  uint32_t offset;      // bytes in the vertex
+  uint32_t components;  // floats, 2 or 3
+};
+
+struct RasterState {
+  std::vector<Format> colors;
+  Format depth = Format::d32_float;
+  uint32_t vertex_stride = 0;
+  std::vector<VertexAttribute> attributes;  // location = position in this list
+};
+
+// Triangles with reversed depth (greater passes, written); cull mode is set per draw.
+class RasterProgram {
+ public:
+  RasterProgram(Device& device, std::span<const uint32_t> vertex, std::span<const uint32_t> fragment, const std::string& name,
+                const RasterState& state, const std::vector<Constant>& constants = {});
+  ~RasterProgram();
+  RasterProgram(RasterProgram&&) noexcept;
+  RasterProgram& operator=(RasterProgram&&) noexcept;
+  const std::string& name() const { return name_; }
+
+  struct Impl;
+  Impl& impl() const { return *impl_; }
+
+ private:
+  std::string name_;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ml::gpu

@@ -1,0 +1,89 @@
+// Buffers and images.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "harness/gpu/device.h"
+
+namespace ml::gpu {
+
+enum class MemoryKind {
+  device,    // not mapped
+  upload,    // mapped for writing; device-local too where the device has such memory
+  readback,  // mapped for reading, cached where possible
+};
+
+// A buffer of bytes: storage, uniform, vertex, index and transfer uses are all allowed.
+class Buffer {
+ public:
+  // `bytes` > 0. Throws SystemError naming `name`, the bytes and the limit when it is over the device's storage range or memory.
+  Buffer(Device& device, size_t bytes, MemoryKind kind, const std::string& name);
+  ~Buffer();
+  Buffer(Buffer&&) noexcept;
+  Buffer& operator=(Buffer&&) noexcept;
+
+  size_t bytes() const { return bytes_; }
+  std::span<std::byte> mapped() const;  // empty for MemoryKind::device
+  bool device_local() const;
+
+  struct Impl;
+  Impl& impl() const { return *impl_; }
+
+ private:
+  size_t bytes_ = 0;
+  std::unique_ptr<Impl> impl_;
+};
+
+// A storage buffer that the CPU writes every frame and shaders read: mapped memory, and where that memory is not device-local a twin that
+// is, filled by Commands::transfer. Grows by doubling, never shrinks.
+class UploadBuffer {
+ public:
+  UploadBuffer(Device& device, std::string name) : device_(&device), name_(std::move(name)) {}
+  // Makes room and returns exactly `bytes` writable bytes (0 is allowed; a buffer of 16 bytes is kept then).
+  std::span<std::byte> map(size_t bytes);
+  const Buffer& host() const { return *host_; }
+  const Buffer& shader() const { return twin_ ? *twin_ : *host_; }
+  bool has_twin() const { return twin_ != nullptr; }
+  size_t used() const { return used_; }
+  size_t capacity() const { return host_ ? host_->bytes() : 0; }
+  const std::string& name() const { return name_; }
+
+ private:
+  Device* device_;
+  std::string name_;
+  std::unique_ptr<Buffer> host_, twin_;
+  size_t used_ = 0;
+};
+
+enum class Format { r32_uint, rg32_uint, rgba32_float, d32_float, rgba8_srgb };
+size_t bytes_per_pixel(Format format);
+
+enum class ImageUse { storage, attachment, texture };  // attachment: also read by compute shaders as a sampled image
+
+class Image {
+ public:
+  // Throws SystemError when it is larger than the device's images or its memory.
+  Image(Device& device, uint32_t width, uint32_t height, Format format, ImageUse use, const std::string& name);
+  ~Image();
+  Image(Image&&) noexcept;
+  Image& operator=(Image&&) noexcept;
+
+  uint32_t width() const { return width_; }
+  uint32_t height() const { return height_; }
+  Format format() const { return format_; }
+  size_t bytes() const { return size_t{width_} * height_ * bytes_per_pixel(format_); }
+
+  struct Impl;
+  Impl& impl() const { return *impl_; }
+
+ private:
+  uint32_t width_ = 0, height_ = 0;
+  Format format_ = Format::r32_uint;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ml::gpu

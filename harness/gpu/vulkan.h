@@ -1,0 +1,87 @@
+// Private to this room: the Vulkan objects behind its classes. Precompiled, because vulkan_raii.hpp costs seconds a file.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+#include <vulkan/vulkan_raii.hpp>
+
+#include "harness/base/error.h"
+#include "harness/gpu/commands.h"
+#include "harness/gpu/device.h"
+#include "harness/gpu/program.h"
+#include "harness/gpu/resources.h"
+
+namespace ml::gpu {
+
+// Messages of the validation layer; filled from any thread.
+struct MessageLog {
+  std::mutex mutex;
+  std::vector<std::string> messages;
+};
+
+struct Device::Impl {
+  vk::raii::Context context;
+  vk::raii::Instance instance = nullptr;
+  MessageLog log;
+  vk::raii::DebugUtilsMessengerEXT messenger = nullptr;
+  vk::raii::PhysicalDevice physical = nullptr;
+  vk::raii::Device device = nullptr;
+  vk::raii::Queue queue = nullptr;
+  uint32_t queue_family = 0;
+  vk::PhysicalDeviceMemoryProperties memory;
+  DeviceInfo info;
+  DeviceLimits limits;
+  bool validation = false;
+};
+
+struct Buffer::Impl {
+  vk::raii::DeviceMemory memory = nullptr;
+  vk::raii::Buffer buffer = nullptr;
+  std::span<std::byte> mapped;
+  bool device_local = false;
+};
+
+struct Image::Impl {
+  vk::raii::DeviceMemory memory = nullptr;
+  vk::raii::Image image = nullptr;
+  vk::raii::ImageView view = nullptr;
+  vk::raii::Sampler sampler = nullptr;
+  vk::ImageAspectFlags aspect;
+  // Storage images and attachments live in GENERAL from their first use on.
+  vk::ImageLayout layout = vk::ImageLayout::eUndefined;
+};
+
+// What a shader wants bound: found in its SPIR-V.
+struct BindingSlot {
+  uint32_t binding = 0;
+  vk::DescriptorType type{};
+  vk::ShaderStageFlags stages;
+};
+
+// Descriptor layout of a program, set 0 only.
+struct Layout {
+  std::map<std::string, BindingSlot, std::less<>> slots;
+  uint32_t push_bytes = 0;
+  vk::ShaderStageFlags push_stages;
+  vk::raii::DescriptorSetLayout set_layout = nullptr;
+  vk::raii::PipelineLayout pipeline_layout = nullptr;
+
+  void add_module(std::span<const uint32_t> spirv, vk::ShaderStageFlagBits stage, const std::string& program);
+  void create(Device::Impl& device);
+};
+
+struct ComputeProgram::Impl {
+  Layout layout;
+  vk::raii::Pipeline pipeline = nullptr;
+};
+
+struct RasterProgram::Impl {
+  Layout layout;
+  vk::raii::Pipeline pipeline = nullptr;
+};
+
+vk::Format vulkan_format(Format format);
+
+}  // namespace ml::gpu

@@ -1,0 +1,28 @@
+// The lights of one frame as CSV, for programs that check a frame on their own.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace ml {
+
+// A light as the GPU has it: single precision, camera-relative (world axes).
+struct LightRow {
+  float position[3] = {0, 0, 0};          // m
+  float radius = 1;                       // m
+  float intensity[3] = {1, 1, 1};         // W/sr
+  std::string shape = "omni";             // or "spot"
+  float direction[3] = {0, 0, 0};         // unit, away from the light; 0 for omni
+  float cone_scale = 0, cone_offset = 1;  // cone factor = clamp(cos * scale + offset, 0, 1)^2
+  float cos_outer = -2;                   // contributes only where cos > cos_outer
+};
+
+// Line 1 names columns and units; then one line a light, `index` counting from 0. Floats have 9 significant
+// digits, enough to give back the same bits. Throws SystemError.
+void write_lights_csv(const std::vector<LightRow>& lights, const std::filesystem::path& file);
+
+// Throws UsageError naming file and line.
+std::vector<LightRow> read_lights_csv(const std::filesystem::path& file);
+
+}  // namespace ml

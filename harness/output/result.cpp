@@ -1,0 +1,182 @@
+#include "harness/output/result.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "embedded/result_schema_text.h"
+#include "harness/base/error.h"
+#include "harness/base/file.h"
+
+namespace ml {
+namespace {
+
+using nlohmann::json;
+
+// A copy in which numbers that JSON cannot hold are null.
+json without_infinities(const json& value) {
+  if (value.is_number_float() && !std::isfinite(value.get<double>())) return nullptr;
+  if (!value.is_structured()) return value;
+  json copy = value;
+  for (json& part : copy) part = without_infinities(part);
+  return copy;
+}
+
+void require_finite(double value, const CaseResult& one, const std::string& name) {
+  if (!std::isfinite(value))
+    throw std::logic_error("case " + one.id + ": " + name + " has a number that is not finite");
+}
+
+json times(const SampleTable& table, const CaseResult& one) {
+  json result = json::object();
+  for (const auto& [name, laps] : table.tables()) {
+    json rows = json::array();
+    for (size_t i = 0; i < laps.size() && i < one.repeats_done; ++i) {
+      for (double sample : laps[i]) require_finite(sample, one, name);
+      rows.push_back(laps[i]);
+    }
+    result[name] = std::move(rows);
+  }
+  return result;
+}
+
+json case_json(const CaseResult& one) {
+  json counters = json::object();
+  for (const auto& [name, numbers] : one.counters) {
+    json list = json::array();
+    for (double number : numbers) {
+      require_finite(number, one, name);
+      // Whole numbers without ".0": counts read as counts.
+      if (number == std::floor(number) && std::abs(number) < 0x1p53)
+        list.push_back(static_cast<int64_t>(number));
+      else
+        list.push_back(number);
+    }
+    counters[name] = std::move(list);
+  }
+  return {{"id", one.id},
+          {"algorithm", one.algorithm},
+          {"parameters", without_infinities(one.parameters)},
+          {"scene", one.scene},
+          {"lights", one.lights},
+          {"resolution", {one.width, one.height}},
+          {"effects", one.effects},
+          {"frames", one.frames},
+          {"repeats_done", one.repeats_done},
+          {"cpu_ms", times(one.cpu_ms, one)},
+          {"gpu_ms", times(one.gpu_ms, one)},
+          {"counters", std::move(counters)},
+          {"accuracy", without_infinities(one.accuracy)},
+          {"memory_bytes", one.memory_bytes},
+          {"rejected_lights", one.rejected_lights},
+          {"timing_suspect", one.timing_suspect},
+          {"timing_note", one.timing_note},
+          {"files", {{"heatmaps", one.heatmaps}, {"images", one.images}}}};
+}
+
+// Fills in keys that `target` lacks, objects within objects too.
+void fill_in(json& target, const json& defaults) {
+  for (const auto& [key, value] : defaults.items()) {
+    if (!target.contains(key))
+      target[key] = value;
+    else if (value.is_object() && target[key].is_object())
+      fill_in(target[key], value);
+  }
+}
+
+void check_rows(const json& one, const std::string& place, const char* group,
+                std::vector<std::string>& violations) {
+  size_t frames = one["frames"].size(), repeats = one["repeats_done"].get<size_t>();
+  for (const auto& [name, laps] : one[group].items()) {
+    std::string path = fmt::format("{}.{}.{}", place, group, name);
+    if (laps.size() != repeats)
+      violations.push_back(
+          fmt::format("{}: expected {} repeats, as in repeats_done, found {}", path, repeats, laps.size()));
+    for (size_t lap = 0; lap < laps.size(); ++lap)
+      if (laps[lap].size() != frames)
+        violations.push_back(
+            fmt::format("{}[{}]: expected {} frames, found {}", path, lap, frames, laps[lap].size()));
+  }
+}
+
+void check_case(const json& one, const std::string& place, bool complete,
+                std::vector<std::string>& violations) {
+  check_rows(one, place, "cpu_ms", violations);
+  check_rows(one, place, "gpu_ms", violations);
+  size_t frames = one["frames"].size();
+  for (const auto& [name, numbers] : one["counters"].items())
+    if (complete ? numbers.size() != frames : numbers.size() > frames)
+      violations.push_back(
+          fmt::format("{}.counters.{}: expected {} frames, found {}", place, name, frames, numbers.size()));
+}
+
+}  // namespace
+
+json to_json(const Result& result) {
+  json context = without_infinities(result.context);
+  fill_in(context, {{"commit", ""},
+                    {"dirty", false},
+                    {"build", json::object()},
+                    {"host", json::object()},
+                    {"device", {{"name", ""}, {"type", "other"}, {"driver", ""}}},
+                    {"environment", json::object()},
+                    {"calibration", json::object()}});
+  json cases = json::array();
+  for (const CaseResult& one : result.cases) cases.push_back(case_json(one));
+  return {{"schema", result_schema_version},
+          {"complete", result.complete},
+          {"context", std::move(context)},
+          {"config", without_infinities(result.config)},
+          {"harness", without_infinities(result.harness)},
+          {"cases", std::move(cases)}};
+}
+
+void write_result(const Result& result, const std::filesystem::path& file) {
+  json document = to_json(result);
+  if (auto violations = result_violations(document); !violations.empty())
+    throw std::logic_error("the result breaks its own schema: " + violations.front());
+  // Device names and paths need not be UTF-8; what is not is replaced, rather than losing the run.
+  write_file(file, document.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+json read_result(const std::filesystem::path& file) {
+  std::string text = read_text_file(file, size_t{1} << 30);
+  json document;
+  try {
+    document = json::parse(text);
+  } catch (const json::exception& problem) {
+    throw UsageError(file.string() + ": expected JSON: " + problem.what());
+  }
+  if (document.is_object() && document.contains("schema") && document["schema"].is_number_integer() &&
+      document["schema"] != result_schema_version)
+    throw UsageError(fmt::format("{}: $.schema: expected version {}, found {}", file.string(),
+                                 result_schema_version, document["schema"].dump()));
+  if (auto violations = result_violations(document); !violations.empty()) {
+    std::string more = violations.size() > 1 ? fmt::format(" (and {} more)", violations.size() - 1) : "";
+    throw UsageError(file.string() + ": " + violations.front() + more);
+  }
+  return document;
+}
+
+const json& result_schema() {
+  static const json schema = json::parse(result_schema_text);
+  return schema;
+}
+
+std::vector<std::string> result_violations(const json& document) {
+  std::vector<std::string> violations = schema_violations(result_schema(), document);
+  if (!violations.empty()) return violations;
+  std::set<std::string> ids;
+  for (size_t i = 0; i < document["cases"].size(); ++i) {
+    const json& one = document["cases"][i];
+    std::string place = fmt::format("$.cases[{}]", i);
+    if (!ids.insert(one["id"].get<std::string>()).second)
+      violations.push_back(fmt::format("{}.id: '{}' is there twice", place, one["id"].get<std::string>()));
+    check_case(one, place, document["complete"].get<bool>(), violations);
+  }
+  return violations;
+}
+
+}  // namespace ml

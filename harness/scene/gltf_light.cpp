@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+
+#include "harness/base/error.h"
+#include "harness/base/file.h"
+#include "harness/scene/gltf_parts.h"
+
+namespace ml::gltf {
+namespace {
+
+// A light without a range reaches, in glTF, infinitely far. It gets the distance at which its irradiance I / r^2 has fallen to
+// this, which is 1 % of what 1 W/sr gives at 1 m; at most the level's diagonal.
+constexpr double least_irradiance = 0.01;  // W/m^2
+
+// glTF's candela and lux are taken as W/sr and W/m^2, one for one: the bench's pictures have no photometric scale.
+Light light_of(const File& file, size_t index, const PlacedNode& placed, const glm::dvec3& center, double diagonal,
+               size_t& without_range) {
+  const tinygltf::Light& source = file.model.lights[index];
+  const Json& json = file.json["extensions"]["KHR_lights_punctual"]["lights"][index];
+  Light light;
+  light.position = glm::dvec3(placed.world[3]) - center;
+  for (int c = 0; c < 3; ++c)
+    if (!(std::abs(placed.world[3][c]) <= max_coordinate))
+      file.fail(at("nodes", placed.node), "its light lies more than 1e9 m from the origin");
+  double peak = 0;
+  for (int c = 0; c < 3; ++c) {
+    double color = source.color.size() == 3 ? source.color[static_cast<size_t>(c)] : 1;
+    light.intensity[c] = static_cast<float>(color * source.intensity);
+    peak = std::max(peak, color * source.intensity);
+  }
+  if (json.contains("range")) {
+    light.radius = static_cast<float>(source.range);
+  } else {
+    ++without_range;
+    light.radius = static_cast<float>(std::min(std::sqrt(peak / least_irradiance), diagonal));
+  }
+  if (source.type != "spot") return light;
+
+  light.shape = LightShape::spot;
+  glm::dvec3 axis = -glm::dvec3(placed.world[2]);
+  double length = glm::length(axis);
+  if (!(length > 1e-150 && std::isfinite(length))) file.fail(at("nodes", placed.node), "a spot light needs a direction, but the scale is 0");
+  light.direction = glm::vec3(axis / length);
+  light.inner_angle = static_cast<float>(source.spot.innerConeAngle);
+  light.outer_angle = json["spot"].contains("outerConeAngle") ? static_cast<float>(source.spot.outerConeAngle) : light.outer_angle;
+  if (Json cone = json.value("/extras/manylights/cone"_json_pointer, Json()); !cone.is_null()) {
+    light.inner_angle = cone[0].get<float>();
+    light.outer_angle = cone[1].get<float>();
+  }
+  return light;
+}
+
+void load_side_file(const File& file, const std::string& name, Scene& scene) {
+  static const std::string place = "asset.extras.manylights.lights";
+  std::filesystem::path path = external_path(file, place, name);
+  std::vector<std::byte> bytes;
+  try {
+    bytes = read_file(path);
+  } catch (const UsageError& error) {
+    file.fail(place, error.what());
+  }
+  std::vector<Light> lights = decode_lights(path.string(), bytes);
+  scene.lights.insert(scene.lights.end(), lights.begin(), lights.end());
+}
+
+}  // namespace
+
+void load_lights(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3& center, Scene& scene) {
+  size_t directional = 0, without_range = 0;
+  double diagonal = glm::length(glm::dvec3(scene.bounds.size()));
+  const auto punctual = "/extensions/KHR_lights_punctual/light"_json_pointer;
+  for (const PlacedNode& placed : nodes) {
+    const Json& node = file.json["nodes"][placed.node];
+    if (!node.contains(punctual)) continue;
+    auto index = node[punctual].get<size_t>();
+    if (file.model.lights[index].type == "directional")
+      ++directional;
+    else
+      scene.lights.push_back(light_of(file, index, placed, center, diagonal, without_range));
+  }
+  if (directional) file.notes.push_back(std::to_string(directional) + " directional lights are ignored");
+  if (without_range)
+    file.notes.push_back(std::to_string(without_range) + " lights have no range, and end where they give 0.01 W/m^2");
+  if (std::string name = file.json.value("/asset/extras/manylights/lights"_json_pointer, ""); !name.empty())
+    load_side_file(file, name, scene);
+}
+
+}  // namespace ml::gltf

@@ -1,0 +1,93 @@
+// The pieces of the glTF importer: each turns one part of a checked File into its part of a Scene. Private to the importer.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "harness/scene/gltf_file.h"
+#include "harness/scene/scene.h"
+
+namespace ml::gltf {
+
+// gltf_nodes.cpp
+struct Pose {
+  glm::dvec3 translation{0};
+  glm::dvec4 rotation{0, 0, 0, 1};  // unit quaternion x, y, z, w
+  glm::dvec3 scale{1};
+};
+struct PlacedNode {
+  size_t node = 0;
+  glm::dmat4 world{1};
+};
+// Proves that the nodes form trees (no cycle, no second parent, no more than max_depth levels).
+// Returns each node's parent, -1 for roots.
+std::vector<int> check_tree(const File& file);
+// The nodes of a scene in depth-first order with their world transforms; all finite.
+std::vector<PlacedNode> place_nodes(const File& file, int scene_index);
+// A node's own transform; for one that is given as a matrix `pose` stays empty.
+glm::dmat4 local_transform(const File& file, size_t node);
+Pose local_pose(const File& file, size_t node);
+glm::dmat4 matrix_of(const Pose& pose);
+
+// gltf_mesh.cpp. Fills vertices, indices, draws and bounds, and subtracts the whole metres nearest to the middle of the bounds
+// (or `center`, where one is given). Returns what was subtracted.
+glm::dvec3 load_meshes(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3* center, Scene& scene);
+
+// gltf_material.cpp. The materials in the file's order and the textures that they use. At the end comes a material for
+// primitives without one; it is dropped by load_meshes when nothing uses it.
+void load_materials(File& file, Scene& scene);
+
+// Where a material's base colour texture finds its coordinates, and how they are moved (KHR_texture_transform).
+struct TextureMapping {
+  int set = 0;  // of TEXCOORD_n
+  glm::dvec2 offset{0}, scale{1};
+  double rotation = 0;  // radians
+};
+TextureMapping texture_mapping(const File& file, int material);
+
+// gltf_light.cpp. Lights of the nodes and of the side file, relative to `center`.
+void load_lights(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3& center, Scene& scene);
+
+// gltf_camera.cpp. One path per camera, relative to `center`; sets scene.near from the first. No path when there is no camera.
+void load_cameras(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3& center, Scene& scene);
+
+// gltf_animation.cpp. How one node moves.
+class NodeMotion {
+ public:
+  // The channels of the first animation that moves `node`; proves that its times increase.
+  NodeMotion(File& file, size_t node);
+  bool moves() const { return !channels_.empty(); }
+  glm::dmat4 at(double time) const;
+  // Adds the times of all keys; `curved` is set when an interval is not a straight line or an arc.
+  void add_times(std::vector<double>& times, bool& curved) const;
+
+ private:
+  struct Channel {
+    enum class Path { translation, rotation, scale } path;
+    enum class Interpolation { linear, step, cubic } interpolation;
+    std::vector<double> times;
+    std::vector<double> values;
+  };
+  glm::dvec4 value(const Channel& channel, double time) const;
+
+  Pose rest_;
+  glm::dmat4 local_{1};
+  std::vector<Channel> channels_;
+};
+
+// gltf_stb.cpp. Images in and out.
+// Decodes a PNG or JPEG to 8-bit RGBA; `pixels_left` is what may still be decoded. Throws UsageError.
+Texture decode_image(const File& file, const std::string& place, Bytes bytes, size_t pixels_left);
+std::vector<std::byte> encode_png(const Texture& texture);
+
+// gltf_tiny.cpp. tinygltf's Model of the checked description. Throws UsageError.
+tinygltf::Model parse_model(const File& file);
+
+// gltf_light_file.cpp: FILE.lights.bin, all little-endian: "MLLIGHTS", uint32 version (1), uint32 count, then for each
+// light 64 bytes: double position[3] (m, relative to the level's origin), float radius (m), float intensity[3] (W/sr), float direction[3],
+// float inner_angle, float outer_angle (radians), uint32 shape (0 omni, 1 spot).
+constexpr size_t max_file_lights = 1048576;
+std::vector<std::byte> encode_lights(const std::vector<Light>& lights);
+std::vector<Light> decode_lights(const std::string& name, Bytes bytes);
+
+}  // namespace ml::gltf

@@ -1,0 +1,37 @@
+// Where the lights of a run stand: points in the scene's box or on its triangles.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "harness/scene/light_set.h"
+#include "harness/scene/scene.h"
+
+namespace ml {
+
+// The dimensions of a light's random numbers: light i of seed s has the number unit_float(hash_u32(s, i, dimension)), so it keeps
+// its place, colour and script whatever the count is.
+enum class LightDimension : uint32_t {
+  place_0, place_1, place_2, lift, radius, hue, is_spot, tilt, azimuth, cone, rate, phase, orbit
+};
+float light_number(uint32_t seed, uint32_t light, LightDimension dimension);
+
+// Uniform over triangles or over area.
+class SurfaceSampler {
+ public:
+  // `scene` must outlive the sampler. Throws UsageError when the scene has no triangles.
+  SurfaceSampler(const Scene& scene, bool by_area);
+
+  struct Point {
+    glm::dvec3 position;
+    glm::dvec3 normal;  // unit; on the side of the vertex normals
+  };
+  // From three numbers in [0, 1).
+  Point at(double choice, double u, double v) const;
+
+ private:
+  const Scene& scene_;
+  std::vector<double> area_before_;  // area of the triangles before each, then the whole; empty: all triangles alike
+};
+
+}  // namespace ml

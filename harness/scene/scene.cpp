@@ -1,0 +1,56 @@
+#include "harness/scene/scene.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "harness/base/error.h"
+#include "harness/scene/procedural.h"
+
+namespace ml {
+
+const CameraPath& Scene::path(const std::string& path_name) const {
+  std::vector<std::string> known;
+  for (const CameraPath& candidate : paths) {
+    if (candidate.name == path_name) return candidate;
+    known.push_back(candidate.name);
+  }
+  if (known.empty()) throw UsageError(one_line(fmt::format("scene '{}': it has no camera path '{}'", name, path_name)));
+  throw UsageError(
+      one_line(fmt::format("scene '{}': it has no camera path '{}'{}", name, path_name, suggestion(path_name, known))));
+}
+
+std::vector<SceneInfo> procedural_scenes() {
+  return {{"canyon", "A valley with two forts, two tunnels, a bridge and rocks: 190 x 150 x 40 m, long and short views."},
+          {"plane", "Two triangles, 100 x 100 m: the number of lights per pixel has a closed form."}};
+}
+
+Scene load_scene(const SceneSpec& spec) {
+  if (spec.procedural.empty() == spec.gltf.empty()) {
+    throw UsageError("scene: expected either the name of a procedural scene or a glTF file");
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(spec.offset[axis]) <= 1e9)) {
+      throw UsageError(
+          fmt::format("scene: offset {} is {}, expected a number within +-1e9 m", "xyz"[axis], spec.offset[axis]));
+    }
+  }
+  if (!spec.gltf.empty()) return import_gltf(spec.gltf, spec.gltf_scene, spec.seed, spec.offset);
+
+  Scene scene;
+  if (spec.procedural == "canyon") {
+    scene = make_canyon(spec.seed);
+  } else if (spec.procedural == "plane") {
+    scene = make_plane();
+  } else {
+    std::vector<std::string> known;
+    for (const SceneInfo& info : procedural_scenes()) known.push_back(info.name);
+    throw UsageError(one_line(fmt::format("scene: unknown procedural scene '{}'{}", spec.procedural,
+                                          suggestion(spec.procedural, known))));
+  }
+  // The vertices stay as they are: a level at 1e6 m has the same floats as one at 0.
+  scene.origin += spec.offset;
+  return scene;
+}
+
+}  // namespace ml

@@ -1,0 +1,20 @@
+// Binding numbers of the shared resources. The C++ side binds by name, found by reflection; algorithms use 16 and up.
+#ifndef ML_BINDINGS_GLSL
+#define ML_BINDINGS_GLSL
+#extension GL_EXT_scalar_block_layout : require
+
+#define BIND_VIEW 0
+#define BIND_DEPTH 1
+#define BIND_SURFACE 2
+#define BIND_LIGHTS 3
+#define BIND_EXTRAS 4
+#define BIND_RESULT 5
+#define BIND_BLOCKS 6
+#define BIND_LISTED 7
+#define BIND_TESTED 8
+#define BIND_CONTRIBUTING 9
+#define BIND_NODES 10
+#define BIND_HASH 11
+#define BIND_TRAVERSAL 12
+
+#endif

@@ -1,0 +1,25 @@
+// Camera-relative projection: the camera is subtracted from the vertex in the scene's own coordinates, then rotated, then projected.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define SURFACE_WRITER
+#include "shaders/surface.glsl"
+
+layout(location = 0) in vec3 in_position;  // m, relative to the scene's origin
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in vec2 in_uv;
+layout(location = 0) out vec3 out_normal;
+layout(location = 1) out vec2 out_uv;
+
+void main() {
+  vec3 relative = in_position - view.camera;
+  vec3 p = vec3(dot(relative, view.right), dot(relative, view.up), dot(relative, view.forward));
+  bool orthographic = view.orthographic != 0u;
+  float w = orthographic ? 1.0 : p.z;
+  float width = view.right_edge - view.left_edge, height = view.top_edge - view.bottom_edge;
+  // Reversed depth: near / z without a far plane, or linear from 1 at near to 0 at far. The picture's y points down.
+  float depth = orthographic ? (view.far - p.z) / (view.far - view.near) : view.near;
+  gl_Position = vec4((2.0 * p.x - (view.left_edge + view.right_edge) * w) / width,
+                     -(2.0 * p.y - (view.bottom_edge + view.top_edge) * w) / height, depth, w);
+  out_normal = in_normal;
+  out_uv = in_uv;
+}

@@ -1,0 +1,105 @@
+// What one light gives to one surface point, and when it gives anything at all: the single definition that every pass uses.
+//
+// Falloff: inverse square, windowed to exactly zero at the radius: (1 - (d/r)^4)^2 / max(d^2, 1e-4 m^2), the window of B. Karis,
+// "Real Shading in Unreal Engine 4", 2013.
+// BRDF: Lambert + GGX with height-correlated Smith visibility and Schlick's Fresnel.
+#ifndef ML_LIGHT_EVAL_GLSL
+#define ML_LIGHT_EVAL_GLSL
+#include "shaders/numbers.glsl"
+#include "shaders/shared/light.h"
+#include "shaders/surface.glsl"
+
+layout(constant_id = 0) const bool EFFECT_SPOTS = true;
+layout(constant_id = 1) const bool EFFECT_SPECULAR = true;
+
+layout(scalar, binding = BIND_LIGHTS) readonly buffer Lights { LightCore lights[]; };
+layout(scalar, binding = BIND_EXTRAS) readonly buffer Extras { LightExtra extras[]; };
+
+const float min_distance_squared = 1e-4;     // m^2: a light is at least a ball of 1 cm
+const float on_point_distance_squared = 1e-12;  // m^2: nearer than this the light has no direction, and shines along the normal
+const float min_roughness = 0.045;           // keeps GGX finite in single precision
+
+// Geometry of a light as seen from a point.
+struct LightSample {
+  VEC3 direction;  // unit, to the light
+  REAL cosine;     // of the surface
+  REAL strength;   // falloff * cone, 1/m^2
+};
+
+// False when the light does not contribute: window 0, behind the surface, or outside the cone. `precise` because every pass must decide
+// alike.
+bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
+  result.direction = VEC3(0);
+  result.cosine = REAL(0);
+  result.strength = REAL(0);
+  precise REAL dx = REAL(light.position.x) - REAL(point.position.x);
+  precise REAL dy = REAL(light.position.y) - REAL(point.position.y);
+  precise REAL dz = REAL(light.position.z) - REAL(point.position.z);
+  precise REAL distance_squared = dx * dx + dy * dy + dz * dz;
+  precise REAL ratio = distance_squared / (REAL(light.radius) * REAL(light.radius));
+  if (!(ratio < REAL(1))) return false;
+  VEC3 normal = VEC3(point.normal);
+  if (distance_squared < REAL(on_point_distance_squared)) {
+    result.direction = normal;
+    result.cosine = REAL(1);
+  } else {
+    precise REAL projected = dx * normal.x + dy * normal.y + dz * normal.z;
+    if (!(projected > REAL(0))) return false;
+    REAL inverse = REAL(1) / sqrt(distance_squared);
+    result.direction = VEC3(dx, dy, dz) * inverse;
+    result.cosine = min(projected * inverse, REAL(1));
+  }
+  precise REAL window = REAL(1) - ratio * ratio;
+  result.strength = window * window / max(distance_squared, REAL(min_distance_squared));
+  if (EFFECT_SPOTS && light.id_shape >> 24 == ML_SHAPE_SPOT) {
+    LightExtra extra = extras[light.id_shape & ML_LIGHT_ID_MASK];
+    precise REAL along = -(result.direction.x * REAL(extra.direction.x) + result.direction.y * REAL(extra.direction.y) +
+                           result.direction.z * REAL(extra.direction.z));
+    precise REAL cone = clamp(along * REAL(extra.cone_scale) + REAL(extra.cone_offset), REAL(0), REAL(1));
+    if (!(along > REAL(extra.cos_outer)) || !(cone > REAL(0))) return false;
+    result.strength *= cone * cone;
+  }
+  return true;
+}
+
+// Light that leaves the point towards the eye, W/(sr m^2).
+VEC3 light_shade(SurfacePoint point, LightCore light, LightSample from) {
+  VEC3 albedo = VEC3(point.albedo);
+  REAL metallic = REAL(point.metallic);
+  VEC3 brdf = albedo * ((REAL(1) - metallic) * REAL(0.31830988618379067));
+  if (EFFECT_SPECULAR) {
+    VEC3 normal = VEC3(point.normal), to_eye = VEC3(point.to_eye);
+    VEC3 between = from.direction + to_eye;
+    REAL length_squared = dot(between, between);
+    // Light straight behind the surface point as the eye sees it: there is no half vector and no highlight.
+    if (length_squared > REAL(1e-12)) {
+      VEC3 half_vector = between / sqrt(length_squared);
+      REAL n_v = clamp(abs(dot(normal, to_eye)), REAL(1e-4), REAL(1));
+      REAL n_h = clamp(dot(normal, half_vector), REAL(0), REAL(1));
+      REAL v_h = clamp(dot(to_eye, half_vector), REAL(0), REAL(1));
+      REAL roughness = max(REAL(point.roughness), REAL(min_roughness));
+      REAL a2 = roughness * roughness * roughness * roughness;
+      // 1 - n_h^2 as a cross product: the difference would lose all digits at the highlight of a smooth surface.
+      VEC3 aside = cross(normal, half_vector);
+      REAL spread = n_h * n_h * a2 + dot(aside, aside);
+      REAL distribution = a2 / max(REAL(3.14159265358979323846) * spread * spread, REAL(1e-30));
+      REAL visibility = REAL(0.5) / (from.cosine * sqrt(n_v * n_v * (REAL(1) - a2) + a2) +
+                                     n_v * sqrt(from.cosine * from.cosine * (REAL(1) - a2) + a2));
+      REAL away = REAL(1) - v_h;
+      REAL away2 = away * away;
+      VEC3 f0 = mix(VEC3(0.04), albedo, metallic);
+      VEC3 fresnel = f0 + (VEC3(1) - f0) * (away2 * away2 * away);
+      brdf += fresnel * (distribution * visibility);
+    }
+  }
+  return VEC3(light.intensity) * brdf * (from.strength * from.cosine);
+}
+
+// A well-mixed 32-bit hash of a light's index: sums of it tell which set of lights was reached.
+uint light_hash(uint index) {
+  uint state = index * 747796405u + 2891336453u;
+  uint word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
+  return (word >> 22) ^ word;
+}
+
+#endif
