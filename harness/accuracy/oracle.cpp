@@ -19,8 +19,8 @@ struct Condition {
 
 double oracle_falloff(double distance, double radius) {
   if (!(distance < radius)) return 0;
-  double part = distance / radius;
-  double window = std::max(0.0, 1 - part * part);
+  double ratio = distance * distance / (radius * radius);
+  double window = std::max(0.0, 1 - ratio * ratio);
   return window * window / std::max(distance * distance, 1e-4);
 }
 

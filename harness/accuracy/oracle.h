@@ -17,8 +17,6 @@
 #include <span>
 #include <vector>
 
-#include "harness/scene/light.h"
-
 namespace ml {
 
 // A shaded point, camera-relative (world axes), as the g-buffer has it.
@@ -53,8 +51,8 @@ struct OracleAnswer {
 
 OracleAnswer oracle_shade(const SurfacePoint& point, std::span<const OracleLight> lights, bool specular);
 
-// One light's windowed inverse-square falloff in double: (1 - (d/r)^2)^2 clamped at 0, over max(d^2, 1e-4
-// m^2).
+// One light's windowed inverse-square falloff in double: (1 - (d/r)^4)^2, exactly 0 from d = r on, over
+// max(d^2, 1e-4 m^2). Window: B. Karis, "Real Shading in Unreal Engine 4", 2013.
 double oracle_falloff(double distance, double radius);
 
 // clamp(cosine * scale + offset, 0, 1)^2, 0 unless cosine > cos_outer; 1 for lights that are no spots.

@@ -26,15 +26,17 @@ std::string name_from(const std::string& source) {
   return name.empty() ? "config" : name;
 }
 
+bool is_top_key(const std::string& name) {
+  if (name == "sweep" || name == "zip") return true;
+  auto named = [&](const Key& key) { return key.path == name && key.path.find('.') == key.path.npos; };
+  return std::any_of(config_keys().begin(), config_keys().end(), named);
+}
+
 // The whole document into a draft and its sweeps.
 void read_document(const Node& root, Draft& draft, Sweeps& sweeps) {
   root.object();
   for (const auto& [name, value] : root.json().items()) {
-    bool known =
-        name == "sweep" || name == "zip" ||
-        (name.find('.') == name.npos && std::any_of(config_keys().begin(), config_keys().end(),
-                                                    [&](const Key& key) { return key.path == name; }));
-    if (!known) unknown_key(root, "", name);
+    if (!is_top_key(name)) unknown_key(root, "", name);
   }
   for (const Key& key : config_keys()) {
     if (key.path.find('.') == key.path.npos && root.json().contains(key.path))

@@ -61,12 +61,14 @@ size_t bytes_per_pixel(Format format) {
 Buffer::Buffer(Device& owner, size_t bytes, MemoryKind kind, const std::string& name)
     : bytes_(bytes), impl_(std::make_unique<Impl>()) {
   const Device::Impl& device = owner.impl();
-  if (bytes > device.limits.storage_buffer_range)
+  if (kind != MemoryKind::readback && bytes > device.limits.storage_buffer_range)
     throw SystemError(fmt::format("{} needs {} bytes; one storage buffer of '{}' holds {}", name, bytes, device.info.name,
                                   device.limits.storage_buffer_range));
   using Usage = vk::BufferUsageFlagBits;
   vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eUniformBuffer | Usage::eTransferSrc | Usage::eTransferDst |
                                Usage::eVertexBuffer | Usage::eIndexBuffer;
+  // Shaders never see readback memory, so their range does not limit it.
+  if (kind == MemoryKind::readback) usage = Usage::eTransferDst;
   impl_->buffer = vk::raii::Buffer(device.device, vk::BufferCreateInfo({}, bytes, usage));
   vk::MemoryRequirements needs = impl_->buffer.getMemoryRequirements();
   uint32_t type = memory_type(device, needs.memoryTypeBits, kind);

@@ -124,6 +124,7 @@ json to_json(const Result& result) {
                     {"environment", json::object()},
                     {"calibration", json::object()}});
   json cases = json::array();
+  for (const json& one : result.earlier_cases) cases.push_back(one);
   for (const CaseResult& one : result.cases) cases.push_back(case_json(one));
   return {{"schema", result_schema_version},
           {"complete", result.complete},

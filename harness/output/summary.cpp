@@ -128,9 +128,9 @@ std::string footnote(const Result& result, bool any_suspect) {
   std::string type = device_text(result.context, "type"), name = device_text(result.context, "name");
   std::string driver = device_text(result.context, "driver");
   std::string device = (name.empty() ? "unknown" : name) + (driver.empty() ? "" : ", " + driver);
-  std::string text = fmt::format("device: {} ({}). ", device, type.empty() ? "type unknown" : type);
+  std::string text = fmt::format("device: {} ({})\n", device, type.empty() ? "type unknown" : type);
   if (type == "cpu")
-    text += "It is a software driver: its times are CPU time of this machine's cores, not a GPU's. ";
+    text += "It is a software driver: its times are CPU time of this machine's cores, not a GPU's.\n";
   text +=
       "Times are medians over frames and repeats, [quartiles]; counters are means over frames, per lit "
       "pixel. eff.: shade time of "

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "harness/base/random.h"
 #include "harness/scene/floor_points.h"
@@ -15,9 +16,9 @@ namespace {
 
 constexpr size_t kMaxPlaces = 400;
 constexpr size_t kMinKeys = 10, kMaxCorners = 14, kMaxKeys = 32;
-constexpr double kSpeed = 5;         // m/s for a grown visitor
-constexpr double kTargetAhead = 8;   // m
-constexpr double kLongView = 80;     // m
+constexpr double kSpeed = 5;        // m/s for a grown visitor
+constexpr double kTargetAhead = 8;  // m
+constexpr double kLongView = 80;    // m
 constexpr uint32_t kStepsPerKey = 24;
 
 // At most kMaxPlaces of the points, by a seeded hash, still in their order.
@@ -63,8 +64,10 @@ std::vector<glm::dvec3> tour(const WalkGraph& graph, const std::vector<FloorPoin
   return corners;
 }
 
-// Leaves out corners that can be cut without leaving walkable ground; steps over at most three, so that the path keeps its sights.
-std::vector<glm::dvec3> straightened(const RayCaster& rays, const std::vector<glm::dvec3>& corners, const Stature& stature) {
+// Leaves out corners that can be cut without leaving walkable ground; steps over at most three, so that the
+// path keeps its sights.
+std::vector<glm::dvec3> straightened(const RayCaster& rays, const std::vector<glm::dvec3>& corners,
+                                     const Stature& stature) {
   std::vector<glm::dvec3> kept{corners.front()};
   for (size_t i = 0; i + 1 < corners.size();) {
     size_t next = i + 1;
@@ -85,7 +88,8 @@ glm::dvec3 middle(const RayCaster& rays, const glm::dvec3& a, const glm::dvec3& 
   glm::dvec3 straight = 0.5 * (a + b);
   if (auto floor = rays.nearest(straight, {0, -1, 0}, 2.5 * stature.eye())) {
     glm::dvec3 stood = straight + glm::dvec3(0, stature.eye() - floor->distance, 0);
-    if (!rays.nearest(straight, {0, stood.y > straight.y ? 1 : -1, 0}, std::abs(stood.y - straight.y) + stature.headroom()) &&
+    if (!rays.nearest(straight, {0, stood.y > straight.y ? 1 : -1, 0},
+                      std::abs(stood.y - straight.y) + stature.headroom()) &&
         walkable(rays, a, stood, stature) && walkable(rays, stood, b, stature)) {
       return stood;
     }
@@ -97,7 +101,8 @@ void refine(const RayCaster& rays, std::vector<glm::dvec3>& corners, const Statu
   while (corners.size() < kMinKeys) {
     size_t longest = 0;
     for (size_t i = 1; i + 1 < corners.size(); ++i) {
-      if (glm::length(corners[i + 1] - corners[i]) > glm::length(corners[longest + 1] - corners[longest])) longest = i;
+      if (glm::length(corners[i + 1] - corners[i]) > glm::length(corners[longest + 1] - corners[longest]))
+        longest = i;
     }
     glm::dvec3 added = middle(rays, corners[longest], corners[longest + 1], stature);
     corners.insert(corners.begin() + static_cast<std::ptrdiff_t>(longest) + 1, added);
@@ -138,7 +143,8 @@ std::optional<size_t> first_blocked(const RayCaster& rays, const CameraPath& pat
   return std::nullopt;
 }
 
-// Adds keys where the spline leaves the straight legs too far; where that does not help, the path ends before.
+// Adds keys where the spline leaves the straight legs too far; where that does not help, the path ends
+// before.
 CameraPath unobstructed(const RayCaster& rays, std::vector<glm::dvec3> corners, const Stature& stature) {
   for (;;) {
     CameraPath path = keyed(corners, stature);
@@ -148,7 +154,8 @@ CameraPath unobstructed(const RayCaster& rays, std::vector<glm::dvec3> corners, 
     size_t i = *blocked;
     double length = glm::length(corners[i + 1] - corners[i]);
     if (corners.size() < kMaxKeys && length > 0.8 * stature.scale) {
-      corners.insert(corners.begin() + static_cast<std::ptrdiff_t>(i) + 1, 0.5 * (corners[i] + corners[i + 1]));
+      corners.insert(corners.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                     0.5 * (corners[i] + corners[i + 1]));
     } else if (i >= corners.size() / 2) {
       corners.resize(i + 1);
     } else {
@@ -157,27 +164,32 @@ CameraPath unobstructed(const RayCaster& rays, std::vector<glm::dvec3> corners, 
   }
 }
 
-// Each key looks where the view is long, rather ahead than back, and never turns by more than about 110 degrees from the key before.
+// Each key looks where the view is long, rather ahead than back, and never turns by more than about 110
+// degrees from the key before.
 void aim(const RayCaster& rays, CameraPath& path, uint32_t seed) {
   constexpr int kDirections = 32;
   constexpr std::array<double, 3> kPitches{-0.03, 0.0, 0.015};  // turns
   glm::dvec3 before(0);
   for (size_t i = 0; i < path.keys.size(); ++i) {
     CameraKey& key = path.keys[i];
-    glm::dvec3 ahead = path.keys[std::min(i + 1, path.keys.size() - 1)].position - path.keys[i == 0 ? 0 : i - 1].position;
+    glm::dvec3 ahead =
+        path.keys[std::min(i + 1, path.keys.size() - 1)].position - path.keys[i == 0 ? 0 : i - 1].position;
     ahead = glm::length(ahead) > 0 ? glm::normalize(ahead) : glm::dvec3(0);
     double best = -1;
     glm::dvec3 chosen(0, 0, -1);
     for (int d = 0; d < kDirections; ++d) {
-      double turns = (d + static_cast<double>(unit_float(hash_u32(seed, static_cast<uint32_t>(i), 4u)))) / kDirections;
+      double turns =
+          (d + static_cast<double>(unit_float(hash_u32(seed, static_cast<uint32_t>(i), 4u)))) / kDirections;
       for (double pitch : kPitches) {
         double level = cosine_of_turns(pitch);
-        glm::dvec3 direction(level * cosine_of_turns(turns), sine_of_turns(pitch), level * sine_of_turns(turns));
+        glm::dvec3 direction(level * cosine_of_turns(turns), sine_of_turns(pitch),
+                             level * sine_of_turns(turns));
         if (glm::dot(direction, before) < -0.35) continue;
         auto hit = rays.nearest(key.position, direction);
         // Open sky shows nothing: worth a short view.
         double view = hit ? std::min(hit->distance, kLongView) : 0.1 * kLongView;
-        double score = std::sqrt(view) * (1 + 0.5 * glm::dot(direction, ahead)) * (1 + 0.3 * glm::dot(direction, before));
+        double score = std::sqrt(view) * (1 + 0.5 * glm::dot(direction, ahead)) *
+                       (1 + 0.3 * glm::dot(direction, before));
         if (score > best) {
           best = score;
           chosen = direction;
@@ -195,7 +207,8 @@ CameraPath look_round(const glm::dvec3& eye) {
   path.name = "default";
   for (int i = 0; i <= 12; ++i) {
     double turns = i / 12.0;
-    path.keys.push_back({2.0 * i, eye, eye + kTargetAhead * glm::dvec3(cosine_of_turns(turns), -0.1, sine_of_turns(turns))});
+    path.keys.push_back(
+        {2.0 * i, eye, eye + kTargetAhead * glm::dvec3(cosine_of_turns(turns), -0.1, sine_of_turns(turns))});
   }
   return path;
 }
@@ -215,31 +228,39 @@ CameraPath around(const Bounds& bounds, uint32_t seed) {
   return path;
 }
 
+CameraPath walk(const RayCaster& rays, const std::vector<FloorPoint>& points, uint32_t seed,
+                const Stature& stature) {
+  WalkGraph graph(rays, points, stature);
+  std::vector<glm::dvec3> corners = tour(graph, points, seed);
+  if (corners.size() > 1) {
+    corners = straightened(rays, corners, stature);
+    if (corners.size() > kMaxCorners) corners.resize(kMaxCorners);
+    refine(rays, corners, stature);
+    CameraPath path = unobstructed(rays, corners, stature);
+    if (path.keys.size() > 1) {
+      aim(rays, path, seed);
+      return path;
+    }
+  }
+  auto widest = std::max_element(points.begin(), points.end(), [](const FloorPoint& a, const FloorPoint& b) {
+    return a.openness < b.openness;
+  });
+  return look_round(widest->eye);
+}
+
 }  // namespace
 
 CameraPath automatic_path(const Scene& scene, uint32_t seed) {
   RayCaster rays(scene);
-  // In a level too low for a grown visitor a smaller one walks.
-  for (double scale : {1.0, 0.5, 0.25}) {
+  // Within walls if possible; in a level too low for a grown visitor a smaller one walks.
+  constexpr std::array<std::pair<double, FloorKind>, 4> kWays{
+      {{1, FloorKind::walled}, {0.5, FloorKind::walled}, {0.25, FloorKind::walled}, {1, FloorKind::any}}};
+  for (auto [scale, kind] : kWays) {
     Stature stature{scale};
-    std::vector<FloorPoint> points = thinned(find_floor_points(rays, scene.bounds, seed, stature), seed);
+    std::vector<FloorPoint> points =
+        thinned(find_floor_points(rays, scene.bounds, seed, stature, kind), seed);
     if (points.empty()) continue;
-    WalkGraph graph(rays, points, stature);
-    std::vector<glm::dvec3> corners = tour(graph, points, seed);
-    if (corners.size() > 1) {
-      corners = straightened(rays, corners, stature);
-      if (corners.size() > kMaxCorners) corners.resize(kMaxCorners);
-      refine(rays, corners, stature);
-      CameraPath path = unobstructed(rays, corners, stature);
-      if (path.keys.size() > 1) {
-        aim(rays, path, seed);
-        return path;
-      }
-    }
-    auto widest = std::max_element(points.begin(), points.end(), [](const FloorPoint& a, const FloorPoint& b) {
-      return a.openness < b.openness;
-    });
-    return look_round(widest->eye);
+    return walk(rays, points, seed, stature);
   }
   return around(scene.bounds, seed);
 }

@@ -12,14 +12,14 @@ bool finite(const glm::dvec3& v) {
 }
 
 // The change per second of a quantity at key i: the slope between its neighbours, one-sided at the ends.
-glm::dvec3 tangent(const std::vector<CameraKey>& keys, size_t i, glm::dvec3 CameraKey::* value) {
+glm::dvec3 tangent(const std::vector<CameraKey>& keys, size_t i, glm::dvec3 CameraKey::*value) {
   const CameraKey& before = keys[i == 0 ? 0 : i - 1];
   const CameraKey& after = keys[std::min(i + 1, keys.size() - 1)];
   return (after.*value - before.*value) / (after.time - before.time);
 }
 
 // Cubic Hermite between keys i and i + 1; `u` in [0, 1].
-glm::dvec3 hermite(const std::vector<CameraKey>& keys, size_t i, double u, glm::dvec3 CameraKey::* value) {
+glm::dvec3 hermite(const std::vector<CameraKey>& keys, size_t i, double u, glm::dvec3 CameraKey::*value) {
   double span = keys[i + 1].time - keys[i].time;
   double u2 = u * u, u3 = u2 * u;
   return (2 * u3 - 3 * u2 + 1) * (keys[i].*value) + (u3 - 2 * u2 + u) * span * tangent(keys, i, value) +
@@ -43,12 +43,13 @@ Projection Projection::orthographic(float half_width, float half_height, float n
 
 Camera Camera::look_at(const glm::dvec3& position, const glm::dvec3& target, const Projection& projection) {
   glm::dvec3 ahead = target - position;
-  // Divided by the largest component first, so that neither tiny nor huge distances leave the range of the squares.
+  // Divided by the largest component first, so that neither tiny nor huge distances leave the range of the
+  // squares.
   double scale = std::max({std::abs(ahead.x), std::abs(ahead.y), std::abs(ahead.z)});
   glm::dvec3 forward(0, 0, -1);
   if (finite(ahead) && scale > 0) forward = glm::normalize(ahead / scale);
-  // Within about 0.03 degrees of the vertical the world's up says nothing about the roll: then the picture's top is
-  // -z when looking down, +z when looking up.
+  // Within about 0.03 degrees of the vertical the world's up says nothing about the roll: then the picture's
+  // top is -z when looking down, +z when looking up.
   glm::dvec3 side = glm::cross(forward, glm::dvec3(0, 1, 0));
   if (glm::dot(side, side) < 2.5e-7) side = glm::cross(forward, glm::dvec3(0, 0, forward.y < 0 ? -1 : 1));
   glm::dvec3 right = glm::normalize(side);
@@ -75,15 +76,18 @@ Camera CameraPath::sample(uint32_t frame, uint32_t frames, uint32_t width, uint3
     window = Projection::perspective(vertical_fov, aspect, near, far);
   }
 
-  if (keys.size() == 1 || frames == 1) return Camera::look_at(keys.front().position, keys.front().target, window);
+  if (keys.size() == 1 || frames == 1)
+    return Camera::look_at(keys.front().position, keys.front().target, window);
   if (frame + 1 == frames) return Camera::look_at(keys.back().position, keys.back().target, window);
-  double time = keys.front().time + duration() * (static_cast<double>(frame) / static_cast<double>(frames - 1));
+  double time =
+      keys.front().time + duration() * (static_cast<double>(frame) / static_cast<double>(frames - 1));
   auto after = std::upper_bound(keys.begin(), keys.end(), time,
                                 [](double t, const CameraKey& key) { return t < key.time; });
-  auto i = static_cast<size_t>(std::clamp<std::ptrdiff_t>(after - keys.begin() - 1, 0,
-                                                          static_cast<std::ptrdiff_t>(keys.size()) - 2));
+  auto i = static_cast<size_t>(
+      std::clamp<std::ptrdiff_t>(after - keys.begin() - 1, 0, static_cast<std::ptrdiff_t>(keys.size()) - 2));
   double u = (time - keys[i].time) / (keys[i + 1].time - keys[i].time);
-  return Camera::look_at(hermite(keys, i, u, &CameraKey::position), hermite(keys, i, u, &CameraKey::target), window);
+  return Camera::look_at(hermite(keys, i, u, &CameraKey::position), hermite(keys, i, u, &CameraKey::target),
+                         window);
 }
 
 }  // namespace ml

@@ -46,10 +46,10 @@ CameraPath make_path(const CanyonGround& ground) {
       // Up the wall to the rim; at 30 s the longest view of the level.
       {28.2, {81, 14, 21}, {70, 22, 36}},
       {29.2, {85.5, 30, 27}, {20, 24, 22}},
-      {30, above(89.5, 28, 2.4), {-85, 27, 0}},
-      {31, above(89, 27, 3), {-85, 25, -4}},
+      {30, above(89.5, 28, 3), {-85, 27, 0}},
+      {31, above(89, 27, 3.6), {-85, 25, -4}},
       // Back above the valley.
-      {32, {82, 33, 25}, {-75, 20, -8}},
+      {32, {82, 32, 25}, {-75, 20, -8}},
       {34.4, {48, 25, 17}, {-60, 8, -12}},
       {37, {0, 17, 2}, {-68, 7, -12}},
       {40, {-36, 12, -6}, {-68, 6, -12}},
@@ -72,7 +72,8 @@ Scene make_canyon(uint32_t seed) {
   CameraPath path = make_path(ground);
   std::vector<glm::dvec3> keep_clear;
   constexpr uint32_t kSteps = 400;
-  for (uint32_t i = 0; i < kSteps; ++i) keep_clear.emplace_back(path.sample(i, kSteps, 16, 9, 0.1f, 220).position);
+  for (uint32_t i = 0; i < kSteps; ++i)
+    keep_clear.emplace_back(path.sample(i, kSteps, 16, 9, 0.1f, 220).position);
 
   ground.build(mesh, materials);
   for (double side : {-1.0, 1.0}) build_fort(mesh, materials, canyon_fort(side));

@@ -9,20 +9,23 @@ namespace {
 using Mesh = MeshBuilder;
 
 // A box between two corners in any order.
-void block(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, uint32_t material, unsigned faces = Mesh::all) {
+void block(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, uint32_t material,
+           unsigned faces = Mesh::all) {
   mesh.box(glm::min(a, b), glm::max(a, b), material, faces);
 }
 
-// Merlons 1 m long, 1.2 m high and 0.5 m thick every 2 m along an edge from a to b, their outer side on the line; they stand
-// towards `inward`.
-void battlements(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& inward, uint32_t material) {
+// Merlons 1 m long, 1.2 m high and 0.5 m thick every 2 m along an edge from a to b, their outer side on the
+// line; they stand towards `inward`.
+void battlements(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& inward,
+                 uint32_t material) {
   double length = glm::length(b - a);
   glm::dvec3 along = (b - a) / length;
   auto count = static_cast<int>((length + 1) / 2);
   double first = 0.5 * (length - (2 * count - 1));
   for (int i = 0; i < count; ++i) {
     glm::dvec3 begin = a + along * (first + 2 * i);
-    block(mesh, begin, begin + along + 0.5 * inward + glm::dvec3(0, 1.2, 0), material, Mesh::all & ~Mesh::bottom);
+    block(mesh, begin, begin + along + 0.5 * inward + glm::dvec3(0, 1.2, 0), material,
+          Mesh::all & ~Mesh::bottom);
   }
 }
 
@@ -48,7 +51,8 @@ Fort canyon_fort(double side) {
   return {side, 71 * side, 10 * side};
 }
 
-// Seen from above, in m towards the valley: the keep from -8 to 6, the curtain wall with its gate at 11 to 12, towers beside it.
+// Seen from above, in m towards the valley: the keep from -8 to 6, the curtain wall with its gate at 11 to
+// 12, towers beside it.
 void build_fort(Mesh& mesh, const CanyonMaterials& materials, const Fort& fort) {
   auto block_at = [&](double f0, double y0, double a0, double f1, double y1, double a1, uint32_t material,
                       unsigned faces = Mesh::all) {
@@ -138,13 +142,13 @@ void build_bridge(Mesh& mesh, const CanyonMaterials& materials) {
   const unsigned no_bottom = Mesh::all & ~Mesh::bottom;
   for (double side : {-1.0, 1.0}) {
     double edge = kBridgeX + side * kHalfWidth, girder = edge - side * 0.5;
-    block(mesh, {girder - side * 0.3, kBridgeDeck - 0.9, -kHalfLength}, {girder, kBridgeDeck - 0.12, kHalfLength},
-          materials.metal);
+    block(mesh, {girder - side * 0.3, kBridgeDeck - 0.9, -kHalfLength},
+          {girder, kBridgeDeck - 0.12, kHalfLength}, materials.metal);
     // Posts of 6 cm: thin, for depth edges.
     for (int i = 0; i <= 36; ++i) {
       double z = -22.5 + 1.25 * i;
-      block(mesh, {edge - side * 0.06, kBridgeDeck, z - 0.03}, {edge - side * 0.12, kBridgeDeck + 1.1, z + 0.03},
-            materials.metal, no_bottom);
+      block(mesh, {edge - side * 0.06, kBridgeDeck, z - 0.03},
+            {edge - side * 0.12, kBridgeDeck + 1.1, z + 0.03}, materials.metal, no_bottom);
     }
     for (double y : {0.55, 1.1}) {
       block(mesh, {edge - side * 0.05, kBridgeDeck + y - 0.03, -kHalfLength},
@@ -154,11 +158,14 @@ void build_bridge(Mesh& mesh, const CanyonMaterials& materials) {
   // Planks with open joints.
   for (int i = 0; i < 90; ++i) {
     double z = -kHalfLength + 0.6 * i;
-    mesh.box({kBridgeX - kHalfWidth, kBridgeDeck - 0.12, z}, {kBridgeX + kHalfWidth, kBridgeDeck, z + 0.57}, materials.wood);
+    mesh.box({kBridgeX - kHalfWidth, kBridgeDeck - 0.12, z}, {kBridgeX + kHalfWidth, kBridgeDeck, z + 0.57},
+             materials.wood);
   }
   for (double z : {-9.0, 9.0}) {
-    mesh.box({kBridgeX - 1.4, -1.9, z - 0.7}, {kBridgeX + 1.4, kBridgeDeck - 1.5, z + 0.7}, materials.concrete, no_bottom);
-    mesh.box({kBridgeX - 2, kBridgeDeck - 1.5, z - 1}, {kBridgeX + 2, kBridgeDeck - 0.9, z + 1}, materials.concrete);
+    mesh.box({kBridgeX - 1.4, -1.9, z - 0.7}, {kBridgeX + 1.4, kBridgeDeck - 1.5, z + 0.7},
+             materials.concrete, no_bottom);
+    mesh.box({kBridgeX - 2, kBridgeDeck - 1.5, z - 1}, {kBridgeX + 2, kBridgeDeck - 0.9, z + 1},
+             materials.concrete);
   }
 }
 

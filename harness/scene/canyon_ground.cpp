@@ -21,7 +21,8 @@ double noise(uint32_t seed, double x, double z) {
   u = u * u * u * (u * (u * 6 - 15) + 10);
   v = v * v * v * (v * (v * 6 - 15) + 10);
   auto corner = [&](int32_t dx, int32_t dz) {
-    return static_cast<double>(unit_float(hash_u32(seed, static_cast<uint32_t>(ix + dx), static_cast<uint32_t>(iz + dz))));
+    return static_cast<double>(
+        unit_float(hash_u32(seed, static_cast<uint32_t>(ix + dx), static_cast<uint32_t>(iz + dz))));
   };
   double near = corner(0, 0) + u * (corner(1, 0) - corner(0, 0));
   double far = corner(0, 1) + u * (corner(1, 1) - corner(0, 1));
@@ -57,7 +58,8 @@ double raw_height(uint32_t seed, double x, double z) {
   ground -= 1.7 * smooth(3.2, 0, std::abs(bed)) * smooth(-3, -7, outside(x, z));
   double roughness = 1.3 * rough(seed + 3, x / 5, z / 5) * smooth(1, 9, beyond);
   double peaks = 12 * smooth(9, 34, beyond) * (0.55 + 0.6 * rough(seed + 4, x / 22, z / 22));
-  // The ends of the valley are shut by the highest mountains, far enough away to be the long views' background.
+  // The ends of the valley are shut by the highest mountains, far enough away to be the long views'
+  // background.
   double ends = 12 * smooth(82, 93, std::abs(x)) * (0.75 + 0.3 * rough(seed + 5, x / 9, z / 9));
   return ground + wall + roughness + peaks + ends;
 }
@@ -123,7 +125,8 @@ void CanyonGround::build(MeshBuilder& mesh, const CanyonMaterials& materials) co
       int back = std::max(k - 1, 0), front = std::min(k + 1, kCellsZ);
       double slope_x = (at(right, k) - at(left, k)) / (kCell * (right - left));
       double slope_z = (at(i, front) - at(i, back)) / (kCell * (front - back));
-      vertices.push_back(mesh.vertex({kMinX + i * kCell, at(i, k), kMinZ + k * kCell}, {-slope_x, 1, -slope_z}));
+      vertices.push_back(
+          mesh.vertex({kMinX + i * kCell, at(i, k), kMinZ + k * kCell}, {-slope_x, 1, -slope_z}));
     }
   }
   auto index = [&](int i, int k) { return vertices[static_cast<size_t>(k) * (kCellsX + 1) + i]; };

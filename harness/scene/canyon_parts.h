@@ -1,4 +1,5 @@
-// The parts of the canyon: ground, buildings, rocks. x runs along the valley, y is up, the valley floor is at about 0.
+// The parts of the canyon: ground, buildings, rocks. x runs along the valley, y is up, the valley floor is at
+// about 0.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +27,8 @@ double canyon_half_width(double x);
 // Ground height on a grid, with buildings' footprints levelled.
 class CanyonGround {
  public:
-  static constexpr double kCell = 1.25;                 // m
-  static constexpr int kCellsX = 152, kCellsZ = 120;    // 190 x 150 m
+  static constexpr double kCell = 1.25;               // m
+  static constexpr int kCellsX = 152, kCellsZ = 120;  // 190 x 150 m
   static constexpr double kMinX = -95, kMinZ = -75;
   static constexpr double kLowest = -2, kHighest = 38;  // the ground reaches both exactly
 
@@ -66,7 +67,7 @@ void build_bridge(MeshBuilder& mesh, const CanyonMaterials& materials);
 std::vector<Footprint> canyon_footprints();
 
 // Rocks on the ground, none within 3 m of the points of `keep_clear` or on a footprint.
-void build_rocks(MeshBuilder& mesh, const CanyonMaterials& materials, const CanyonGround& ground, uint32_t seed,
-                 const std::vector<glm::dvec3>& keep_clear);
+void build_rocks(MeshBuilder& mesh, const CanyonMaterials& materials, const CanyonGround& ground,
+                 uint32_t seed, const std::vector<glm::dvec3>& keep_clear);
 
 }  // namespace ml

@@ -22,22 +22,26 @@ constexpr std::array<glm::dvec3, 12> kCorners{{{-1, kGolden, 0},
                                                {kGolden, 0, 1},
                                                {-kGolden, 0, -1},
                                                {-kGolden, 0, 1}}};
-constexpr uint8_t kFaces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                                   {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                                   {3, 8, 9},  {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+constexpr uint8_t kFaces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                   {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                   {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                   {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
 
 // A bumpy icosahedron, turned about the vertical, its lower part in the ground.
-void build_rock(MeshBuilder& mesh, Random& random, const glm::dvec3& place, double radius, uint32_t material) {
+void build_rock(MeshBuilder& mesh, Random& random, const glm::dvec3& place, double radius,
+                uint32_t material) {
   double turns = random.uniform(), c = cosine_of_turns(turns), s = sine_of_turns(turns);
   glm::dvec3 stretch(random.uniform(0.8f, 1.3f), random.uniform(0.6f, 0.95f), random.uniform(0.8f, 1.2f));
   std::array<glm::dvec3, 12> corners;
   for (size_t i = 0; i < corners.size(); ++i) {
-    double size = radius * static_cast<double>(random.uniform(0.8f, 1.15f)) / std::sqrt(1 + kGolden * kGolden);
+    double size =
+        radius * static_cast<double>(random.uniform(0.8f, 1.15f)) / std::sqrt(1 + kGolden * kGolden);
     glm::dvec3 p = kCorners[i] * stretch * size;
     corners[i] = place + glm::dvec3(c * p.x - s * p.z, p.y + 0.25 * radius, s * p.x + c * p.z);
     corners[i].y = std::max(corners[i].y, CanyonGround::kLowest);
   }
-  for (const auto& face : kFaces) mesh.triangle(corners[face[0]], corners[face[1]], corners[face[2]], material);
+  for (const auto& face : kFaces)
+    mesh.triangle(corners[face[0]], corners[face[1]], corners[face[2]], material);
 }
 
 bool on_footprint(const std::vector<Footprint>& footprints, double x, double z, double margin) {
@@ -48,8 +52,8 @@ bool on_footprint(const std::vector<Footprint>& footprints, double x, double z, 
 
 }  // namespace
 
-void build_rocks(MeshBuilder& mesh, const CanyonMaterials& materials, const CanyonGround& ground, uint32_t seed,
-                 const std::vector<glm::dvec3>& keep_clear) {
+void build_rocks(MeshBuilder& mesh, const CanyonMaterials& materials, const CanyonGround& ground,
+                 uint32_t seed, const std::vector<glm::dvec3>& keep_clear) {
   constexpr int kRocks = 160, kTries = 20000;
   std::vector<Footprint> footprints = canyon_footprints();
   Random random(hash_u32(seed, 77));

@@ -13,14 +13,14 @@ namespace {
 constexpr double kColumns = 1600;
 constexpr int kFloorsPerColumn = 8;
 constexpr int kDirections = 16;
-constexpr size_t kEnough = 24;      // places of a kind; with fewer the next kind is taken too
-constexpr double kFlat = 0.7;       // vertical part of a floor's normal
-constexpr double kLongView = 100;   // m
+constexpr size_t kEnough = 24;     // places of a kind; fewer are taken for none
+constexpr double kFlat = 0.7;      // vertical part of a floor's normal
+constexpr double kLongView = 100;  // m
 
 struct Candidate {
   FloorPoint point;
-  bool roof = false;       // open sky above and another floor below
-  double enclosure = 0;    // share of level views that end at something
+  bool roof = false;        // open sky above and another floor below
+  double enclosure = 0;     // share of level views that end at something
   int front = 0, back = 0;  // sides of triangles that are seen
 };
 
@@ -73,34 +73,33 @@ void search_column(const RayCaster& rays, double x, double z, double top, const 
     if (above && above->distance < stature.eye() + stature.headroom()) continue;
     if (above) ++(above->front ? candidate.front : candidate.back);
     candidate.roof = !above;
-    if (!room_to_stand(rays, candidate.point.eye, stature) || !look_around(rays, stature, candidate)) continue;
+    if (!room_to_stand(rays, candidate.point.eye, stature) || !look_around(rays, stature, candidate))
+      continue;
     found.push_back(candidate);
   }
   // What lies under open sky is a roof only if somebody can stand below it.
   for (size_t i = first; i < found.size(); ++i) found[i].roof = found[i].roof && i + 1 < found.size();
 }
 
-// Within a solid one sees the wrong side of its triangles. Which side is wrong is what the level as a whole says; where it does not say
-// it clearly, nothing is dropped.
+// Within a solid, or in the void under a level, one sees the wrong side of the triangles. The
+// counter-clockwise side should be the right one; a file in which hardly any place sees that side is taken to
+// be wound the other way round, and where neither holds nothing is dropped.
 void drop_inside_solids(std::vector<Candidate>& candidates) {
-  long front = 0, back = 0;
-  for (const Candidate& c : candidates) {
-    front += c.front;
-    back += c.back;
+  auto sees_front = [](const Candidate& c) { return c.back * 5 <= c.front + c.back; };
+  auto sees_back = [](const Candidate& c) { return c.front * 5 <= c.front + c.back; };
+  auto fronts = static_cast<size_t>(std::count_if(candidates.begin(), candidates.end(), sees_front));
+  auto backs = static_cast<size_t>(std::count_if(candidates.begin(), candidates.end(), sees_back));
+  if (fronts >= kEnough || fronts * 4 >= candidates.size()) {
+    std::erase_if(candidates, [&](const Candidate& c) { return !sees_front(c); });
+  } else if (backs >= kEnough) {
+    std::erase_if(candidates, [&](const Candidate& c) { return !sees_back(c); });
   }
-  long all = front + back;
-  bool front_is_right = front * 4 > all * 3;
-  if (all == 0 || (!front_is_right && back * 4 <= all * 3)) return;
-  std::erase_if(candidates, [&](const Candidate& c) {
-    int wrong = front_is_right ? c.back : c.front;
-    return wrong * 5 > c.front + c.back;
-  });
 }
 
 }  // namespace
 
 std::vector<FloorPoint> find_floor_points(const RayCaster& rays, const Bounds& bounds, uint32_t seed,
-                                          const Stature& stature) {
+                                          const Stature& stature, FloorKind kind) {
   glm::dvec3 low(bounds.min), size(glm::dvec3(bounds.max) - low);
   if (!(size.x > 0) || !(size.z > 0)) return {};
   double cell = std::sqrt(size.x * size.z / kColumns);
@@ -120,14 +119,17 @@ std::vector<FloorPoint> find_floor_points(const RayCaster& rays, const Bounds& b
 
   auto walled = [](const Candidate& c) { return !c.roof && c.enclosure >= 0.5; };
   auto ground = [](const Candidate& c) { return !c.roof; };
-  auto walled_count = static_cast<size_t>(std::count_if(candidates.begin(), candidates.end(), walled));
-  auto ground_count = static_cast<size_t>(std::count_if(candidates.begin(), candidates.end(), ground));
   std::vector<FloorPoint> points;
+  if (kind == FloorKind::walled) {
+    for (const Candidate& c : candidates) {
+      if (walled(c)) points.push_back(c.point);
+    }
+    if (points.size() < kEnough) points.clear();
+    return points;
+  }
+  bool has_ground = std::any_of(candidates.begin(), candidates.end(), ground);
   for (const Candidate& c : candidates) {
-    bool wanted = walled_count >= kEnough ? walled(c) : ground_count > 0 ? ground(c) : true;
-    // A visitor who was made small to fit looks for a room, not for a table top.
-    if (stature.scale < 1 && c.enclosure < 0.5) wanted = false;
-    if (wanted) points.push_back(c.point);
+    if (!has_ground || ground(c)) points.push_back(c.point);
   }
   return points;
 }

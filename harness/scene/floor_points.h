@@ -23,8 +23,11 @@ struct FloorPoint {
   double openness = 0;  // m, mean free length of level views
 };
 
-// Eye positions over near-horizontal surfaces of either winding, with room to stand. Where the level offers enough, only places inside
-// it: with walls around, not on the roof over another floor, not within a solid. In a fixed order; empty when there are none.
-std::vector<FloorPoint> find_floor_points(const RayCaster& rays, const Bounds& bounds, uint32_t seed, const Stature& stature);
+// Eye positions over near-horizontal surfaces of either winding, with room to stand, in a fixed order.
+// walled: with walls around, not on the roof over another floor, not within a solid; empty when the level
+// offers too few of them. any: on the ground rather than on a roof, but with nothing around if need be.
+enum class FloorKind { walled, any };
+std::vector<FloorPoint> find_floor_points(const RayCaster& rays, const Bounds& bounds, uint32_t seed,
+                                          const Stature& stature, FloorKind kind);
 
 }  // namespace ml

@@ -14,13 +14,15 @@ struct Run {
   const std::byte* element(size_t i) const { return bytes.data() + i * stride; }
 };
 
-// The sizes are below 2^31 by the schema and the strides below 2^8, so that nothing here can overflow 64 bits.
-Run run_of(const File& file, const std::string& place, size_t view, size_t offset, size_t count, size_t element_size,
-           size_t stride) {
+// The sizes are below 2^31 by the schema and the strides below 2^8, so that nothing here can overflow 64
+// bits.
+Run run_of(const File& file, const std::string& place, size_t view, size_t offset, size_t count,
+           size_t element_size, size_t stride) {
   Bytes bytes = view_bytes(file, view);
   size_t end = offset + (count - 1) * stride + element_size;
   if (end > bytes.size())
-    file.fail(place, "reaches " + std::to_string(end - bytes.size()) + " bytes past " + at("bufferViews", view));
+    file.fail(place,
+              "reaches " + std::to_string(end - bytes.size()) + " bytes past " + at("bufferViews", view));
   return {bytes.subspan(offset), stride};
 }
 
@@ -54,7 +56,8 @@ double component(const std::byte* bytes, int type, bool normalized) {
   return normalized ? std::max(value / scale, -1.0) : value;
 }
 
-// Every element of an accessor, sparse ones put in, as `components` doubles (which hold 32-bit integers and floats exactly).
+// Every element of an accessor, sparse ones put in, as `components` doubles (which hold 32-bit integers and
+// floats exactly).
 std::vector<double> read_all(const File& file, size_t index, size_t components) {
   const tinygltf::Accessor& accessor = file.model.accessors[index];
   std::string place = at("accessors", index);
@@ -80,12 +83,14 @@ std::vector<double> read_all(const File& file, size_t index, size_t components) 
                                        static_cast<uint32_t>(accessor.sparse.indices.componentType)))
                                  : 0;
   if (sparse_count) {
-    if (sparse_count > accessor.count) file.fail(place + ".sparse.count", "is more than the accessor's count");
-    sparse_indices = run_of(file, place + ".sparse.indices", static_cast<size_t>(accessor.sparse.indices.bufferView),
-                            static_cast<size_t>(accessor.sparse.indices.byteOffset), sparse_count, index_size, index_size);
-    sparse_values =
-        run_of(file, place + ".sparse.values", static_cast<size_t>(accessor.sparse.values.bufferView),
-               static_cast<size_t>(accessor.sparse.values.byteOffset), sparse_count, element_size, element_size);
+    if (sparse_count > accessor.count)
+      file.fail(place + ".sparse.count", "is more than the accessor's count");
+    sparse_indices =
+        run_of(file, place + ".sparse.indices", static_cast<size_t>(accessor.sparse.indices.bufferView),
+               static_cast<size_t>(accessor.sparse.indices.byteOffset), sparse_count, index_size, index_size);
+    sparse_values = run_of(
+        file, place + ".sparse.values", static_cast<size_t>(accessor.sparse.values.bufferView),
+        static_cast<size_t>(accessor.sparse.values.byteOffset), sparse_count, element_size, element_size);
   }
 
   std::vector<double> result(accessor.count * components, 0.0);
@@ -97,11 +102,12 @@ std::vector<double> read_all(const File& file, size_t index, size_t components) 
   if (accessor.bufferView >= 0)
     for (size_t i = 0; i < accessor.count; ++i) put(i, base.element(i));
   for (size_t i = 0; i < sparse_count; ++i) {
-    auto element =
-        static_cast<size_t>(component(sparse_indices.element(i), accessor.sparse.indices.componentType, false));
+    auto element = static_cast<size_t>(
+        component(sparse_indices.element(i), accessor.sparse.indices.componentType, false));
     if (element >= accessor.count)
       file.fail(place + ".sparse.indices", "element " + std::to_string(i) + " is " + std::to_string(element) +
-                                               ", but the accessor has " + std::to_string(accessor.count) + " elements");
+                                               ", but the accessor has " + std::to_string(accessor.count) +
+                                               " elements");
     put(element, sparse_values.element(i));
   }
   return result;
@@ -118,12 +124,14 @@ std::vector<double> read_numbers(const File& file, size_t index, int components,
   if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
     file.fail(place, "expected floats or 8- or 16-bit integers in " + at("accessors", index));
   if (accessor.count > max_vertices)
-    file.fail(at("accessors", index), "has " + std::to_string(accessor.count) + " elements, more than the limit of " +
+    file.fail(at("accessors", index), "has " + std::to_string(accessor.count) +
+                                          " elements, more than the limit of " +
                                           std::to_string(max_vertices));
   std::vector<double> result = read_all(file, index, static_cast<size_t>(components));
   for (size_t i = 0; i < result.size(); ++i)
     if (!std::isfinite(result[i]))
-      file.fail(at("accessors", index), "element " + std::to_string(i / static_cast<size_t>(components)) + " is not finite");
+      file.fail(at("accessors", index),
+                "element " + std::to_string(i / static_cast<size_t>(components)) + " is not finite");
   return result;
 }
 
@@ -135,8 +143,8 @@ std::vector<uint32_t> read_indices(const File& file, size_t index, const std::st
   if (accessor.type != TINYGLTF_TYPE_SCALAR || !whole || accessor.normalized)
     file.fail(place, "expected unsigned 8-, 16- or 32-bit integers in " + at("accessors", index));
   if (accessor.count > max_indices)
-    file.fail(at("accessors", index), "has " + std::to_string(accessor.count) + " indices, more than the limit of " +
-                                          std::to_string(max_indices));
+    file.fail(at("accessors", index), "has " + std::to_string(accessor.count) +
+                                          " indices, more than the limit of " + std::to_string(max_indices));
   std::vector<double> values = read_all(file, index, 1);
   return {values.begin(), values.end()};
 }

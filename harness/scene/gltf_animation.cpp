@@ -8,7 +8,8 @@ namespace {
 
 constexpr size_t max_keys = 100000;
 
-// Spherical interpolation by halving: square roots alone, so that every machine makes the same bits (sin and acos do not).
+// Spherical interpolation by halving: square roots alone, so that every machine makes the same bits (sin and
+// acos do not).
 glm::dvec4 turn(glm::dvec4 a, glm::dvec4 b, double t) {
   if (glm::dot(a, b) < 0) b = -b;
   double low = 0, high = 1;
@@ -46,7 +47,8 @@ NodeMotion::NodeMotion(File& file, size_t node) {
         file.fail(place + ".sampler", "is " + std::to_string(source.sampler) + ", but the animation has " +
                                           std::to_string(animations[a].samplers.size()) + " samplers");
       const auto& sampler = animations[a].samplers[static_cast<size_t>(source.sampler)];
-      std::string where = gltf::at("animations", a) + "." + gltf::at("samplers", static_cast<size_t>(source.sampler));
+      std::string where =
+          gltf::at("animations", a) + "." + gltf::at("samplers", static_cast<size_t>(source.sampler));
       channel.interpolation = sampler.interpolation == "STEP"          ? Channel::Interpolation::step
                               : sampler.interpolation == "CUBICSPLINE" ? Channel::Interpolation::cubic
                                                                        : Channel::Interpolation::linear;
@@ -61,8 +63,9 @@ NodeMotion::NodeMotion(File& file, size_t node) {
       size_t per_key = channel.interpolation == Channel::Interpolation::cubic ? 3 : 1;
       size_t wanted = channel.times.size() * per_key * static_cast<size_t>(width);
       if (channel.values.size() != wanted)
-        file.fail(where + ".output", "has " + std::to_string(channel.values.size() / static_cast<size_t>(width)) +
-                                         " elements, expected " + std::to_string(channel.times.size() * per_key));
+        file.fail(where + ".output",
+                  "has " + std::to_string(channel.values.size() / static_cast<size_t>(width)) +
+                      " elements, expected " + std::to_string(channel.times.size() * per_key));
       channels_.push_back(std::move(channel));
     }
   }
@@ -77,7 +80,8 @@ void NodeMotion::add_times(std::vector<double>& times, bool& curved) const {
 }
 
 glm::dvec4 NodeMotion::value(const Channel& channel, double time) const {
-  bool rotation = channel.path == Channel::Path::rotation, cubic = channel.interpolation == Channel::Interpolation::cubic;
+  bool rotation = channel.path == Channel::Path::rotation,
+       cubic = channel.interpolation == Channel::Interpolation::cubic;
   size_t width = rotation ? 4 : 3;
   // Part 0 of a cubic key is its in-tangent, 1 its value, 2 its out-tangent.
   auto element = [&](size_t key, size_t part) {

@@ -43,7 +43,8 @@ int hex_digit(char c) {
 std::string decode_percent(std::string_view text) {
   std::string result;
   for (size_t i = 0; i < text.size(); ++i) {
-    bool escape = text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 && hex_digit(text[i + 2]) >= 0;
+    bool escape =
+        text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 && hex_digit(text[i + 2]) >= 0;
     result += escape ? static_cast<char>(hex_digit(text[i + 1]) * 16 + hex_digit(text[i + 2])) : text[i];
     if (escape) i += 2;
   }
@@ -53,12 +54,11 @@ std::string decode_percent(std::string_view text) {
 void check_views(const File& file) {
   for (size_t i = 0; i < file.model.bufferViews.size(); ++i) {
     const tinygltf::BufferView& view = file.model.bufferViews[i];
-    size_t size = file.buffers[static_cast<size_t>(view.buffer)].size(), end = view.byteOffset + view.byteLength;
+    size_t size = file.buffers[static_cast<size_t>(view.buffer)].size(),
+           end = view.byteOffset + view.byteLength;
     if (end > size)
       file.fail(at("bufferViews", i), "reaches " + std::to_string(end - size) + " bytes past " +
                                           at("buffers", static_cast<size_t>(view.buffer)));
-    if (view.byteStride % 4 != 0)
-      file.fail(at("bufferViews", i) + ".byteStride", "is " + std::to_string(view.byteStride) + ", expected a multiple of 4");
   }
 }
 

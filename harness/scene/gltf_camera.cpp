@@ -7,8 +7,10 @@
 namespace ml::gltf {
 namespace {
 
-constexpr double key_turn = 0.0875;    // 5 degrees, as the chord of the unit circle: the most between two keys of a path
-constexpr double key_interval = 0.1;   // s: the most between two keys, so that the spline follows straight lines
+constexpr double key_turn =
+    0.0875;  // 5 degrees, as the chord of the unit circle: the most between two keys of a path
+constexpr double key_interval =
+    0.1;  // s: the most between two keys, so that the spline follows straight lines
 constexpr int most_per_interval = 64;
 constexpr size_t max_path_keys = 200000;
 
@@ -47,7 +49,9 @@ class CameraLoader {
       scene_.paths.insert(scene_.paths.begin(), scene_.paths[0]);
       scene_.paths[0].name = "default";
     }
-    if (rolled_) file_.notes.push_back(std::to_string(rolled_) + " cameras are rolled about their axis, which is ignored");
+    if (rolled_)
+      file_.notes.push_back(std::to_string(rolled_) +
+                            " cameras are rolled about their axis, which is ignored");
   }
 
  private:
@@ -63,7 +67,8 @@ class CameraLoader {
     for (const NodeMotion& motion : chain) world = motion.at(time) * world;
     glm::dvec3 back(world[2]), side(world[0]), position(world[3]);
     double length = glm::length(back), side_length = glm::length(side);
-    bool usable = std::isfinite(length) && length > 1e-150 && std::isfinite(side_length) && side_length > 1e-150;
+    bool usable =
+        std::isfinite(length) && length > 1e-150 && std::isfinite(side_length) && side_length > 1e-150;
     for (int c = 0; c < 3; ++c) usable = usable && std::abs(position[c]) <= max_coordinate;
     if (!usable) file_.fail(at("nodes", node), "its camera has no finite position and direction");
     View view{position - center_, -back / length, false};
@@ -86,16 +91,20 @@ class CameraLoader {
       View view = view_at(node, chain, time);
       rolled = rolled || view.rolled;
       keys.push_back({time, view.position, view.position + view.forward});
-      if (keys.size() > max_path_keys) file_.fail(at("nodes", node), "its camera moves through more than 200000 keys");
+      if (keys.size() > max_path_keys)
+        file_.fail(at("nodes", node), "its camera moves through more than 200000 keys");
     };
     for (size_t i = 0; i < times.size(); ++i) {
       if (i > 0) {
         double begin = times[i - 1], span = times[i] - begin;
-        double chord = glm::length(view_at(node, chain, begin).forward - view_at(node, chain, times[i]).forward);
-        double parts = std::max({std::ceil(chord / key_turn), std::ceil(span / key_interval - 1e-3), curved ? 8.0 : 1.0});
+        double chord =
+            glm::length(view_at(node, chain, begin).forward - view_at(node, chain, times[i]).forward);
+        double parts = std::max(
+            {std::ceil(chord / key_turn), std::ceil(span / key_interval - 1e-3), curved ? 8.0 : 1.0});
         int count = static_cast<int>(std::min(parts, double{most_per_interval}));
         for (int k = 1; k < count; ++k)
-          if (double time = begin + span * k / count; time > keys.back().time && time < times[i]) add_key(time);
+          if (double time = begin + span * k / count; time > keys.back().time && time < times[i])
+            add_key(time);
       }
       add_key(times[i]);
     }
@@ -108,7 +117,6 @@ class CameraLoader {
     const Json& json = file_.json["cameras"][index];
     std::string place = at("cameras", index);
     double near = 0;
-    if (!json.contains(camera.type)) file_.fail(place, "'" + camera.type + "' is missing");
     if (camera.type == "perspective") {
       path.vertical_fov = static_cast<float>(camera.perspective.yfov);
       near = camera.perspective.znear;
@@ -122,9 +130,11 @@ class CameraLoader {
       path.projection.left = -width, path.projection.right = width;
       path.projection.bottom = -height, path.projection.top = height;
       near = std::max(lens.znear, 0.001);  // the bench's near plane lies in front of the camera
-      if (!(lens.zfar > near && lens.zfar <= max_coordinate)) file_.fail(place + ".orthographic.zfar", "expected more than znear");
+      if (!(lens.zfar > near && lens.zfar <= max_coordinate))
+        file_.fail(place + ".orthographic.zfar", "expected more than znear");
       path.projection.near = static_cast<float>(near);
-      path.projection.far = std::max(static_cast<float>(lens.zfar), std::nextafter(path.projection.near, 1e10f));
+      path.projection.far =
+          std::max(static_cast<float>(lens.zfar), std::nextafter(path.projection.near, 1e10f));
     }
     read_window(path, json, place);
     if (scene_.paths.empty() && near >= 1e-4 && near <= 100) scene_.near = static_cast<float>(near);
@@ -141,8 +151,10 @@ class CameraLoader {
     for (float* side : sides) usable = usable && std::abs(*side) <= 1e9f;
     if (!usable) file_.fail(place + ".extras.manylights.window", "expected left < right and bottom < top");
     if (camera["type"] == "perspective") {
-      path.projection.near = static_cast<float>(std::clamp(camera["perspective"]["znear"].get<double>(), 1e-6, 1e6));
-      path.projection.far = static_cast<float>(std::clamp(camera["perspective"].value("zfar", 1000.0), 1e-6, max_coordinate));
+      path.projection.near =
+          static_cast<float>(std::clamp(camera["perspective"]["znear"].get<double>(), 1e-6, 1e6));
+      path.projection.far =
+          static_cast<float>(std::clamp(camera["perspective"].value("zfar", 1000.0), 1e-6, max_coordinate));
       if (!(path.projection.far > path.projection.near)) path.projection.far = 2 * path.projection.near;
     }
     path.has_projection = true;

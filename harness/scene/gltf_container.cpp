@@ -40,7 +40,8 @@ Container open_glb(const File& file, Bytes bytes) {
     uint32_t type = word(bytes, offset + 4);
     offset += chunk_header_size;
     if (size > length - offset)
-      file.fail(place, "reaches " + std::to_string(size - (length - offset)) + " bytes past the end of the file");
+      file.fail(place,
+                "reaches " + std::to_string(size - (length - offset)) + " bytes past the end of the file");
     if (chunk == 0 && type != json_chunk) file.fail(place, "expected the JSON chunk first");
     if (chunk == 0) container.json = text(bytes.subspan(offset, size));
     if (chunk == 1 && type == bin_chunk) container.binary = bytes.subspan(offset, size);

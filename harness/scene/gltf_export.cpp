@@ -15,8 +15,8 @@ using gltf::GlbWriter;
 using gltf::OrderedJson;
 
 constexpr size_t max_gltf_lights = 4096;
-constexpr double samples_per_second = 30;  // of a moving camera
-constexpr uint32_t max_samples = 7200;
+constexpr double samples_per_second = 60;  // of a moving camera
+constexpr uint32_t max_samples = 14400;
 constexpr double half_pi = 1.5707963267948966;  // the widest half-angle of a glTF spot
 
 OrderedJson vector_json(const glm::dvec3& v) {
@@ -55,7 +55,9 @@ class Exporter {
   Exporter(const Scene& scene, const std::vector<Light>& lights) : scene_(scene), lights_(lights) {}
 
   std::vector<std::byte> write(const std::string& side_file) {
-    OrderedJson own = {{"name", scene_.name}, {"near", scene_.near}, {"far", scene_.far},
+    OrderedJson own = {{"name", scene_.name},
+                       {"near", scene_.near},
+                       {"far", scene_.far},
                        {"origin", vector_json(scene_.origin)}};
     if (!side_file.empty()) own["lights"] = side_file;
     OrderedJson& json = out_.json();
@@ -75,11 +77,15 @@ class Exporter {
  private:
   void add_mesh() {
     std::vector<float> positions, normals, uvs;
+    // Texture coordinates that no texture uses would be dead weight in every file.
     bool textured = false;
+    for (const Draw& draw : scene_.draws)
+      textured =
+          textured || (draw.index_count > 0 && scene_.materials[draw.material].base_color_texture >= 0);
     for (const Vertex& vertex : scene_.vertices) {
-      for (int c = 0; c < 3; ++c) positions.push_back(vertex.position[c]), normals.push_back(vertex.normal[c]);
+      for (int c = 0; c < 3; ++c)
+        positions.push_back(vertex.position[c]), normals.push_back(vertex.normal[c]);
       for (int c = 0; c < 2; ++c) uvs.push_back(vertex.uv[c]);
-      textured = textured || vertex.uv != glm::vec2(0);
     }
     OrderedJson attributes;
     attributes["POSITION"] = out_.add_floats(positions, 3, GlbWriter::Target::vertices, true);
@@ -91,8 +97,10 @@ class Exporter {
     OrderedJson primitives = OrderedJson::array();
     for (const Draw& draw : scene_.draws) {
       if (draw.index_count == 0) continue;
-      size_t accessor = out_.add_indices(indices.subspan(draw.first_index, draw.index_count), view, draw.first_index);
-      primitives.push_back({{"attributes", attributes}, {"indices", accessor}, {"material", material(draw.material)}});
+      size_t accessor =
+          out_.add_indices(indices.subspan(draw.first_index, draw.index_count), view, draw.first_index);
+      primitives.push_back(
+          {{"attributes", attributes}, {"indices", accessor}, {"material", material(draw.material)}});
     }
     out_.json()["meshes"] = OrderedJson::array({{{"name", scene_.name}, {"primitives", primitives}}});
     out_.json()["nodes"] = OrderedJson::array({{{"name", scene_.name}, {"mesh", 0}}});
@@ -106,9 +114,11 @@ class Exporter {
     OrderedJson surface = {{"baseColorFactor", quaternion_json(glm::dvec4(source.base_color))},
                            {"metallicFactor", source.metallic},
                            {"roughnessFactor", source.roughness}};
-    if (source.base_color_texture >= 0) surface["baseColorTexture"] = {{"index", texture(source.base_color_texture)}};
+    if (source.base_color_texture >= 0)
+      surface["baseColorTexture"] = {{"index", texture(source.base_color_texture)}};
     OrderedJson json = {{"name", source.name}, {"pbrMetallicRoughness", surface}};
-    if (source.alpha_mode == AlphaMode::mask) json["alphaMode"] = "MASK", json["alphaCutoff"] = source.alpha_cutoff;
+    if (source.alpha_mode == AlphaMode::mask)
+      json["alphaMode"] = "MASK", json["alphaCutoff"] = source.alpha_cutoff;
     if (source.double_sided) json["doubleSided"] = true;
     out_.json()["materials"].push_back(std::move(json));
     return known->second;
@@ -129,7 +139,8 @@ class Exporter {
     bool moves = path.keys.size() > 1 && path.duration() > 0;
     uint32_t samples = 1;
     if (moves)
-      samples = static_cast<uint32_t>(std::clamp(std::ceil(path.duration() * samples_per_second) + 1, 2.0, double{max_samples}));
+      samples = static_cast<uint32_t>(
+          std::clamp(std::ceil(path.duration() * samples_per_second) + 1, 2.0, double{max_samples}));
     // glTF's time begins at 0.
     double start = std::max(path.keys.front().time, 0.0);
     std::vector<float> times, translations, rotations;
@@ -137,7 +148,8 @@ class Exporter {
     for (uint32_t i = 0; i < samples; ++i) {
       Camera camera = path.sample(i, samples, 16, 9, scene_.near, scene_.far);
       glm::dvec4 rotation = rotation_of(camera);
-      if (glm::dot(rotation, before) < 0) rotation = -rotation;  // q and -q turn alike; near ones interpolate the short way
+      if (glm::dot(rotation, before) < 0)
+        rotation = -rotation;  // q and -q turn alike; near ones interpolate the short way
       before = rotation;
       times.push_back(static_cast<float>(moves ? start + path.duration() * i / (samples - 1) : 0));
       for (int c = 0; c < 3; ++c) translations.push_back(camera.position[c]);
@@ -178,7 +190,8 @@ class Exporter {
                                 {"zfar", window.far}};
     } else {
       camera["type"] = "perspective";
-      camera["perspective"] = {{"yfov", path.vertical_fov}, {"znear", path.has_projection ? window.near : scene_.near}};
+      camera["perspective"] = {{"yfov", path.vertical_fov},
+                               {"znear", path.has_projection ? window.near : scene_.near}};
       if (path.has_projection) camera["perspective"]["zfar"] = window.far;
     }
     if (path.has_projection && !(orthographic && symmetric))
@@ -190,7 +203,8 @@ class Exporter {
     OrderedJson lights = OrderedJson::array();
     for (const Light& light : lights_) {
       OrderedJson node = {{"translation", vector_json(light.position)}};
-      if (light.shape == LightShape::spot) node["rotation"] = quaternion_json(rotation_to(glm::dvec3(light.direction)));
+      if (light.shape == LightShape::spot)
+        node["rotation"] = quaternion_json(rotation_to(glm::dvec3(light.direction)));
       node["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
       out_.json()["nodes"].push_back(std::move(node));
       lights.push_back(light_json(light));

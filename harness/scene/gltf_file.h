@@ -2,9 +2,11 @@
 //
 // Three steps, so that a hostile file meets a check before it meets code that trusts it:
 //   1. gltf_container.cpp takes the JSON and the binary chunk out of the bytes,
-//   2. gltf_schema.cpp copies what the importer knows out of the JSON, and proves types, ranges and references on the way,
+//   2. gltf_schema.cpp copies what the importer knows out of the JSON, and proves types, ranges and
+//   references on the way,
 //   3. tinygltf turns that copy into its Model; it never sees buffers, images, extras or unknown extensions.
-// After that every index in the Model is valid; byte ranges are proven by gltf_buffers.cpp and gltf_accessor.cpp.
+// After that every index in the Model is valid; byte ranges are proven by gltf_buffers.cpp and
+// gltf_accessor.cpp.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +28,8 @@ namespace ml::gltf {
 using Json = nlohmann::json;
 using Bytes = std::span<const std::byte>;
 
-// No level that the bench can draw comes near these; a file that claims more is refused before memory is asked for.
+// No level that the bench can draw comes near these; a file that claims more is refused before memory is
+// asked for.
 constexpr size_t max_vertices = size_t{1} << 24;
 constexpr size_t max_indices = size_t{3} << 24;
 constexpr size_t max_pixels = size_t{1} << 27;  // of all textures together
@@ -60,7 +63,8 @@ struct Container {
 };
 Container open_container(const File& file, Bytes bytes);
 
-// gltf_schema.cpp. The parts of `raw` that the importer reads, with every type, range and reference proven; throws UsageError.
+// gltf_schema.cpp. The parts of `raw` that the importer reads, with every type, range and reference proven;
+// throws UsageError.
 Json checked_description(const File& file, const Json& raw);
 // Adds a note for each kind of content in `raw` that the bench does not draw.
 void note_what_is_ignored(File& file, const Json& raw);
@@ -71,7 +75,8 @@ void load_buffers(File& file, std::optional<Bytes> binary);
 Bytes view_bytes(const File& file, size_t view);
 // The bytes behind a URI: a data URI is decoded, anything else is a file below file.folder.
 std::vector<std::byte> load_uri(const File& file, const std::string& place, const std::string& uri);
-// The path of a file below file.folder. Throws UsageError for absolute paths, "..", schemes, and where external files are refused.
+// The path of a file below file.folder. Throws UsageError for absolute paths, "..", schemes, and where
+// external files are refused.
 std::filesystem::path external_path(const File& file, const std::string& place, const std::string& uri);
 
 // gltf_accessor.cpp. `place` is where the accessor is used, for errors.

@@ -20,7 +20,8 @@ class GlbWriter {
 
   // A buffer view of `bytes`, 4-aligned. Returns its index.
   size_t add_view(std::span<const std::byte> bytes, Target target = Target::none);
-  // An accessor on floats of `components` each; with `bounds`, its smallest and largest components are written too.
+  // An accessor on floats of `components` each; with `bounds`, its smallest and largest components are
+  // written too.
   size_t add_floats(std::span<const float> values, size_t components, Target target, bool bounds);
   size_t add_indices(std::span<const uint32_t> indices, size_t view, size_t first);
 

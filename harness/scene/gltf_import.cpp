@@ -58,7 +58,8 @@ Scene build(File& file, gltf::Bytes bytes, int scene_index, uint32_t seed, const
   gltf::load_cameras(file, nodes, center, scene);
   if (own.contains("near")) scene.near = own["near"].get<float>();
   scene.far = own.contains("far") ? own["far"].get<float>() : static_cast<float>(distance_range(scene));
-  if (!(scene.near > 0 && scene.far > scene.near)) file.fail("asset.extras.manylights", "expected 0 < near < far");
+  if (!(scene.near > 0 && scene.far > scene.near))
+    file.fail("asset.extras.manylights", "expected 0 < near < far");
   if (scene.paths.empty()) {
     scene.paths.push_back(automatic_path(scene, seed));
     scene.paths[0].name = "default";
@@ -67,7 +68,8 @@ Scene build(File& file, gltf::Bytes bytes, int scene_index, uint32_t seed, const
   return scene;
 }
 
-Scene build_or_explain(File& file, gltf::Bytes bytes, int scene_index, uint32_t seed, const glm::dvec3& offset) {
+Scene build_or_explain(File& file, gltf::Bytes bytes, int scene_index, uint32_t seed,
+                       const glm::dvec3& offset) {
   try {
     return build(file, bytes, scene_index, seed, offset);
   } catch (const Error&) {
@@ -81,7 +83,8 @@ Scene build_or_explain(File& file, gltf::Bytes bytes, int scene_index, uint32_t 
 
 }  // namespace
 
-Scene import_gltf(const std::filesystem::path& path, int scene_index, uint32_t seed, const glm::dvec3& offset) {
+Scene import_gltf(const std::filesystem::path& path, int scene_index, uint32_t seed,
+                  const glm::dvec3& offset) {
   std::vector<std::byte> bytes = read_file(path);
   File file;
   file.name = path.string();
@@ -90,8 +93,8 @@ Scene import_gltf(const std::filesystem::path& path, int scene_index, uint32_t s
   return build_or_explain(file, bytes, scene_index, seed, offset);
 }
 
-Scene import_gltf_memory(std::span<const std::byte> bytes, const std::string& name, int scene_index, uint32_t seed,
-                         const glm::dvec3& offset) {
+Scene import_gltf_memory(std::span<const std::byte> bytes, const std::string& name, int scene_index,
+                         uint32_t seed, const glm::dvec3& offset) {
   File file;
   file.name = name;
   return build_or_explain(file, bytes, scene_index, seed, offset);

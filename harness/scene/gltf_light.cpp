@@ -8,13 +8,14 @@
 namespace ml::gltf {
 namespace {
 
-// A light without a range reaches, in glTF, infinitely far. It gets the distance at which its irradiance I / r^2 has fallen to
-// this, which is 1 % of what 1 W/sr gives at 1 m; at most the level's diagonal.
+// A light without a range reaches, in glTF, infinitely far. It gets the distance at which its irradiance I /
+// r^2 has fallen to this, which is 1 % of what 1 W/sr gives at 1 m; at most the level's diagonal.
 constexpr double least_irradiance = 0.01;  // W/m^2
 
-// glTF's candela and lux are taken as W/sr and W/m^2, one for one: the bench's pictures have no photometric scale.
-Light light_of(const File& file, size_t index, const PlacedNode& placed, const glm::dvec3& center, double diagonal,
-               size_t& without_range) {
+// glTF's candela and lux are taken as W/sr and W/m^2, one for one: the bench's pictures have no photometric
+// scale.
+Light light_of(const File& file, size_t index, const PlacedNode& placed, const glm::dvec3& center,
+               double diagonal, size_t& without_range) {
   const tinygltf::Light& source = file.model.lights[index];
   const Json& json = file.json["extensions"]["KHR_lights_punctual"]["lights"][index];
   Light light;
@@ -39,10 +40,12 @@ Light light_of(const File& file, size_t index, const PlacedNode& placed, const g
   light.shape = LightShape::spot;
   glm::dvec3 axis = -glm::dvec3(placed.world[2]);
   double length = glm::length(axis);
-  if (!(length > 1e-150 && std::isfinite(length))) file.fail(at("nodes", placed.node), "a spot light needs a direction, but the scale is 0");
+  if (!(length > 1e-150 && std::isfinite(length)))
+    file.fail(at("nodes", placed.node), "a spot light needs a direction, but the scale is 0");
   light.direction = glm::vec3(axis / length);
   light.inner_angle = static_cast<float>(source.spot.innerConeAngle);
-  light.outer_angle = json["spot"].contains("outerConeAngle") ? static_cast<float>(source.spot.outerConeAngle) : light.outer_angle;
+  light.outer_angle = json["spot"].contains("outerConeAngle") ? static_cast<float>(source.spot.outerConeAngle)
+                                                              : light.outer_angle;
   if (Json cone = json.value("/extras/manylights/cone"_json_pointer, Json()); !cone.is_null()) {
     light.inner_angle = cone[0].get<float>();
     light.outer_angle = cone[1].get<float>();
@@ -80,7 +83,8 @@ void load_lights(File& file, const std::vector<PlacedNode>& nodes, const glm::dv
   }
   if (directional) file.notes.push_back(std::to_string(directional) + " directional lights are ignored");
   if (without_range)
-    file.notes.push_back(std::to_string(without_range) + " lights have no range, and end where they give 0.01 W/m^2");
+    file.notes.push_back(std::to_string(without_range) +
+                         " lights have no range, and end where they give 0.01 W/m^2");
   if (std::string name = file.json.value("/asset/extras/manylights/lights"_json_pointer, ""); !name.empty())
     load_side_file(file, name, scene);
 }

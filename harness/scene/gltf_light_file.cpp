@@ -73,10 +73,11 @@ std::vector<Light> decode_lights(const std::string& name, Bytes bytes) {
   if (uint32_t found = in.get32(); found != version)
     fail("header: expected version " + std::to_string(version) + ", found " + std::to_string(found));
   size_t count = in.get32();
-  if (count > max_file_lights) fail("header: " + std::to_string(count) + " lights, more than " + std::to_string(max_file_lights));
+  if (count > max_file_lights)
+    fail("header: " + std::to_string(count) + " lights, more than " + std::to_string(max_file_lights));
   if (size_t wanted = header_size + record_size * count; bytes.size() != wanted)
-    fail("header: " + std::to_string(count) + " lights take " + std::to_string(wanted) + " bytes, but the file has " +
-         std::to_string(bytes.size()));
+    fail("header: " + std::to_string(count) + " lights take " + std::to_string(wanted) +
+         " bytes, but the file has " + std::to_string(bytes.size()));
   std::vector<Light> lights(count);
   for (size_t i = 0; i < count; ++i) {
     Light& light = lights[i];

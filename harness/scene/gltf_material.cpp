@@ -20,12 +20,14 @@ class MaterialLoader {
       Material material;
       material.name = source.name;
       const auto& surface = source.pbrMetallicRoughness;
-      for (int c = 0; c < 4; ++c) material.base_color[c] = unit_factor(surface.baseColorFactor[static_cast<size_t>(c)]);
+      for (int c = 0; c < 4; ++c)
+        material.base_color[c] = unit_factor(surface.baseColorFactor[static_cast<size_t>(c)]);
       material.metallic = unit_factor(surface.metallicFactor);
       material.roughness = unit_factor(surface.roughnessFactor);
       material.double_sided = source.doubleSided;
       if (source.alphaMode != "OPAQUE") material.alpha_mode = AlphaMode::mask;
-      if (source.alphaMode == "MASK") material.alpha_cutoff = static_cast<float>(std::min(source.alphaCutoff, 1e6));
+      if (source.alphaMode == "MASK")
+        material.alpha_cutoff = static_cast<float>(std::min(source.alphaCutoff, 1e6));
       blended += source.alphaMode == "BLEND";
       if (surface.baseColorTexture.index >= 0)
         material.base_color_texture = texture(static_cast<size_t>(surface.baseColorTexture.index));
@@ -34,9 +36,12 @@ class MaterialLoader {
     Material plain;
     plain.name = "no material";
     scene_.materials.push_back(plain);
-    if (blended) file_.notes.push_back(std::to_string(blended) + " materials blend, and are drawn as masks with cutoff 0.5");
+    if (blended)
+      file_.notes.push_back(std::to_string(blended) +
+                            " materials blend, and are drawn as masks with cutoff 0.5");
     if (without_image_)
-      file_.notes.push_back(std::to_string(without_image_) + " textures have no PNG or JPEG image, and are drawn white");
+      file_.notes.push_back(std::to_string(without_image_) +
+                            " textures have no PNG or JPEG image, and are drawn white");
   }
 
  private:

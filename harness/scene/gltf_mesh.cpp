@@ -26,9 +26,11 @@ glm::dvec3 unit(const glm::dvec3& v) {
   return std::abs(length - 1) < 1e-6 ? v : v / length;
 }
 
-// The corners of the triangles that a list, strip or fan of `corners` means; incomplete ones at the end are dropped.
+// The corners of the triangles that a list, strip or fan of `corners` means; incomplete ones at the end are
+// dropped.
 std::vector<uint32_t> as_triangles(const std::vector<uint32_t>& corners, int mode) {
-  if (mode == TINYGLTF_MODE_TRIANGLES) return {corners.begin(), corners.begin() + static_cast<ptrdiff_t>(corners.size() / 3 * 3)};
+  if (mode == TINYGLTF_MODE_TRIANGLES)
+    return {corners.begin(), corners.begin() + static_cast<ptrdiff_t>(corners.size() / 3 * 3)};
   std::vector<uint32_t> result;
   for (size_t i = 0; i + 2 < corners.size(); ++i) {
     if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
@@ -49,7 +51,8 @@ class MeshLoader {
     const auto& primitives = file_.model.meshes[static_cast<size_t>(mesh)].primitives;
     shared_.clear();
     for (size_t i = 0; i < primitives.size(); ++i)
-      add_primitive(placed, primitives[i], at("meshes", static_cast<size_t>(mesh)) + "." + at("primitives", i));
+      add_primitive(placed, primitives[i],
+                    at("meshes", static_cast<size_t>(mesh)) + "." + at("primitives", i));
   }
 
   glm::dvec3 finish(const glm::dvec3* given_center) {
@@ -59,16 +62,18 @@ class MeshLoader {
     size_t corners = 0;
     for (const auto& list : triangles_) corners += list.size();
     if (corners == 0) file_.fail("scene", "has no triangles");
-    if (triangles_.back().empty() && scene_.materials.size() > 1) triangles_.pop_back(), scene_.materials.pop_back();
+    if (triangles_.back().empty() && scene_.materials.size() > 1)
+      triangles_.pop_back(), scene_.materials.pop_back();
 
     glm::dvec3 center = given_center ? *given_center : whole_center();
-    for (size_t i = 0; i < positions_.size(); ++i) scene_.vertices[i].position = glm::vec3(positions_[i] - center);
+    for (size_t i = 0; i < positions_.size(); ++i)
+      scene_.vertices[i].position = glm::vec3(positions_[i] - center);
     scene_.indices.reserve(corners);
     for (size_t material = 0; material < triangles_.size(); ++material) {
       const auto& list = triangles_[material];
       if (list.empty()) continue;
-      scene_.draws.push_back({static_cast<uint32_t>(scene_.indices.size()), static_cast<uint32_t>(list.size()),
-                              static_cast<uint32_t>(material)});
+      scene_.draws.push_back({static_cast<uint32_t>(scene_.indices.size()),
+                              static_cast<uint32_t>(list.size()), static_cast<uint32_t>(material)});
       scene_.indices.insert(scene_.indices.end(), list.begin(), list.end());
     }
     mend_normals();
@@ -92,14 +97,16 @@ class MeshLoader {
     if (count) file_.notes.push_back(std::to_string(count) + " " + what);
   }
 
-  void add_primitive(const PlacedNode& placed, const tinygltf::Primitive& primitive, const std::string& place) {
+  void add_primitive(const PlacedNode& placed, const tinygltf::Primitive& primitive,
+                     const std::string& place) {
     int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     auto positions = primitive.attributes.find("POSITION");
     not_triangles_ += mode < TINYGLTF_MODE_TRIANGLES;
     without_positions_ += mode >= TINYGLTF_MODE_TRIANGLES && positions == primitive.attributes.end();
     if (mode < TINYGLTF_MODE_TRIANGLES || positions == primitive.attributes.end()) return;
 
-    Source source{static_cast<size_t>(positions->second), -1, -1, texture_mapping(file_, primitive.material), place};
+    Source source{static_cast<size_t>(positions->second), -1, -1, texture_mapping(file_, primitive.material),
+                  place};
     if (auto found = primitive.attributes.find("NORMAL"); found != primitive.attributes.end())
       source.normals = found->second;
     if (auto found = primitive.attributes.find("TEXCOORD_" + std::to_string(source.mapping.set));
@@ -109,7 +116,8 @@ class MeshLoader {
     size_t count = file_.model.accessors[source.positions].count;
     std::vector<uint32_t> corners = triangle_corners(primitive, mode, count, place);
     without_material_ += primitive.material < 0;
-    size_t material = primitive.material < 0 ? triangles_.size() - 1 : static_cast<size_t>(primitive.material);
+    size_t material =
+        primitive.material < 0 ? triangles_.size() - 1 : static_cast<size_t>(primitive.material);
     std::vector<uint32_t>& list = triangles_[material];
     check_room(source.normals < 0 ? corners.size() : count, corners.size(), place);
 
@@ -129,16 +137,18 @@ class MeshLoader {
     std::vector<uint32_t> corners;
     if (primitive.indices < 0) {
       if (vertices > max_vertices)
-        file_.fail(place, "has " + std::to_string(vertices) + " vertices, more than the limit of " + std::to_string(max_vertices));
+        file_.fail(place, "has " + std::to_string(vertices) + " vertices, more than the limit of " +
+                              std::to_string(max_vertices));
       corners.resize(vertices);
       for (size_t i = 0; i < vertices; ++i) corners[i] = static_cast<uint32_t>(i);
     } else {
       corners = read_indices(file_, static_cast<size_t>(primitive.indices), place + ".indices");
       for (size_t i = 0; i < corners.size(); ++i)
         if (corners[i] >= vertices)
-          file_.fail(place + ".indices", at("accessors", static_cast<size_t>(primitive.indices)) + " element " +
-                                             std::to_string(i) + " is " + std::to_string(corners[i]) +
-                                             ", but there are " + std::to_string(vertices) + " vertices");
+          file_.fail(place + ".indices", at("accessors", static_cast<size_t>(primitive.indices)) +
+                                             " element " + std::to_string(i) + " is " +
+                                             std::to_string(corners[i]) + ", but there are " +
+                                             std::to_string(vertices) + " vertices");
     }
     return as_triangles(corners, mode);
   }
@@ -150,17 +160,20 @@ class MeshLoader {
       file_.fail(place, "the scene has more than " + std::to_string(max_vertices) + " vertices or triangles");
   }
 
-  std::vector<double> attribute(int accessor, int components, size_t count, const Source& source, const char* name) const {
+  std::vector<double> attribute(int accessor, int components, size_t count, const Source& source,
+                                const char* name) const {
     std::string place = source.place + ".attributes." + name;
     auto index = static_cast<size_t>(accessor);
     if (file_.model.accessors[index].count != count)
-      file_.fail(place, at("accessors", index) + " has " + std::to_string(file_.model.accessors[index].count) +
-                            " elements, but there are " + std::to_string(count) + " positions");
+      file_.fail(place, at("accessors", index) + " has " +
+                            std::to_string(file_.model.accessors[index].count) + " elements, but there are " +
+                            std::to_string(count) + " positions");
     return read_numbers(file_, index, components, place);
   }
 
   std::vector<glm::dvec3> world_positions(const PlacedNode& placed, const Source& source) const {
-    std::vector<double> values = read_numbers(file_, source.positions, 3, source.place + ".attributes.POSITION");
+    std::vector<double> values =
+        read_numbers(file_, source.positions, 3, source.place + ".attributes.POSITION");
     std::vector<glm::dvec3> result(values.size() / 3);
     for (size_t i = 0; i < result.size(); ++i) {
       result[i] = glm::dvec3(placed.world * glm::dvec4(triple(values, i), 1));
@@ -178,7 +191,8 @@ class MeshLoader {
     std::string name = "TEXCOORD_" + std::to_string(source.mapping.set);
     std::vector<double> values = attribute(source.coordinates, 2, count, source, name.c_str());
     const TextureMapping& map = source.mapping;
-    double c = map.rotation == 0 ? 1 : std::cos(map.rotation), s = map.rotation == 0 ? 0 : std::sin(map.rotation);
+    double c = map.rotation == 0 ? 1 : std::cos(map.rotation),
+           s = map.rotation == 0 ? 0 : std::sin(map.rotation);
     for (size_t i = 0; i < count; ++i) {
       double u = values[2 * i] * map.scale.x, v = values[2 * i + 1] * map.scale.y;
       glm::dvec2 moved(c * u + s * v + map.offset.x, c * v - s * u + map.offset.y);
@@ -190,8 +204,8 @@ class MeshLoader {
   // The first of the vertices that all primitives of this node with the same attributes share.
   uint32_t shared_vertices(const PlacedNode& placed, const Source& source) {
     const TextureMapping& map = source.mapping;
-    Key key{source.positions, source.normals, source.coordinates, map.offset.x, map.offset.y,
-            map.scale.x, map.scale.y, map.rotation};
+    Key key{source.positions, source.normals, source.coordinates, map.offset.x,
+            map.offset.y,     map.scale.x,    map.scale.y,        map.rotation};
     if (auto found = shared_.find(key); found != shared_.end()) return found->second;
     std::vector<glm::dvec3> positions = world_positions(placed, source);
     std::vector<double> normals = attribute(source.normals, 3, positions.size(), source, "NORMAL");
@@ -226,11 +240,13 @@ class MeshLoader {
 
   glm::dvec3 whole_center() const {
     glm::dvec3 low = positions_[0], high = low;
-    for (const glm::dvec3& position : positions_) low = glm::min(low, position), high = glm::max(high, position);
+    for (const glm::dvec3& position : positions_)
+      low = glm::min(low, position), high = glm::max(high, position);
     return glm::floor(0.5 * (low + high) + 0.5);
   }
 
-  // A vertex whose own normal is no direction gets the area-weighted one of its triangles, and "up" where those have no area.
+  // A vertex whose own normal is no direction gets the area-weighted one of its triangles, and "up" where
+  // those have no area.
   void mend_normals() {
     std::vector<uint32_t> bad;
     for (size_t i = 0; i < scene_.vertices.size(); ++i)
@@ -239,9 +255,11 @@ class MeshLoader {
     std::map<uint32_t, glm::dvec3> sums;
     for (uint32_t vertex : bad) sums.emplace(vertex, glm::dvec3(0));
     for (size_t i = 0; i < scene_.indices.size(); i += 3) {
-      glm::dvec3 a = positions_[scene_.indices[i]], b = positions_[scene_.indices[i + 1]], c = positions_[scene_.indices[i + 2]];
+      glm::dvec3 a = positions_[scene_.indices[i]], b = positions_[scene_.indices[i + 1]],
+                 c = positions_[scene_.indices[i + 2]];
       for (size_t k = 0; k < 3; ++k)
-        if (auto sum = sums.find(scene_.indices[i + k]); sum != sums.end()) sum->second += glm::cross(b - a, c - a);
+        if (auto sum = sums.find(scene_.indices[i + k]); sum != sums.end())
+          sum->second += glm::cross(b - a, c - a);
     }
     for (const auto& [vertex, sum] : sums) {
       glm::dvec3 normal = unit(sum);
@@ -262,7 +280,8 @@ class MeshLoader {
 
 }  // namespace
 
-glm::dvec3 load_meshes(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3* center, Scene& scene) {
+glm::dvec3 load_meshes(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3* center,
+                       Scene& scene) {
   MeshLoader loader(file, scene);
   for (const PlacedNode& node : nodes) loader.add_node(node);
   return loader.finish(center);

@@ -18,12 +18,14 @@ bool all_finite(const glm::dmat4& matrix) {
 Pose local_pose(const File& file, size_t index) {
   const tinygltf::Node& node = file.model.nodes[index];
   Pose pose;
-  if (node.translation.size() == 3) pose.translation = {node.translation[0], node.translation[1], node.translation[2]};
+  if (node.translation.size() == 3)
+    pose.translation = {node.translation[0], node.translation[1], node.translation[2]};
   if (node.scale.size() == 3) pose.scale = {node.scale[0], node.scale[1], node.scale[2]};
   if (node.rotation.size() == 4) {
     pose.rotation = {node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]};
     double length = glm::length(pose.rotation);
-    if (!(length > 1e-6 && length < 1e6)) file.fail(at("nodes", index) + ".rotation", "expected a unit quaternion");
+    if (!(length > 1e-6 && length < 1e6))
+      file.fail(at("nodes", index) + ".rotation", "expected a unit quaternion");
     pose.rotation /= length;
   }
   return pose;
@@ -92,7 +94,8 @@ std::vector<PlacedNode> place_nodes(const File& file, int scene_index) {
   std::vector<PlacedNode> pending;  // a stack: children are put on it in reverse
 
   if (model.scenes.empty()) {
-    if (scene_index > 0) file.fail("scenes", "scene " + std::to_string(scene_index) + " is wanted, but the file has none");
+    if (scene_index > 0)
+      file.fail("scenes", "scene " + std::to_string(scene_index) + " is wanted, but the file has none");
     for (size_t i = model.nodes.size(); i-- > 0;)
       if (parents[i] < 0) pending.push_back({i});
   } else {
@@ -118,7 +121,8 @@ std::vector<PlacedNode> place_nodes(const File& file, int scene_index) {
     if (!all_finite(next.world)) file.fail(at("nodes", next.node), "its world transform is not finite");
     placed.push_back(next);
     const std::vector<int>& children = model.nodes[next.node].children;
-    for (size_t i = children.size(); i-- > 0;) pending.push_back({static_cast<size_t>(children[i]), next.world});
+    for (size_t i = children.size(); i-- > 0;)
+      pending.push_back({static_cast<size_t>(children[i]), next.world});
   }
   return placed;
 }

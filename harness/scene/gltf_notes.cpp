@@ -30,7 +30,8 @@ void note_what_is_ignored(File& file, const Json& raw) {
   for_each_object(raw, "skins", [&](const Json&) { ++skins; });
   for_each_object(raw, "materials", [&](const Json& material) {
     auto surface = material.find("pbrMetallicRoughness");
-    bool metal_map = surface != material.end() && surface->is_object() && surface->contains("metallicRoughnessTexture");
+    bool metal_map =
+        surface != material.end() && surface->is_object() && surface->contains("metallicRoughnessTexture");
     textured += metal_map || material.contains("normalTexture") || material.contains("occlusionTexture");
     emissive += material.contains("emissiveTexture") || material.contains("emissiveFactor");
     extended += material.contains("extensions");
@@ -45,7 +46,8 @@ void note_what_is_ignored(File& file, const Json& raw) {
   add_note(file, colored, "primitives have vertex colours, which are ignored");
   add_note(file, morphing, "primitives have morph targets, which are ignored");
   add_note(file, skins, "skins are ignored: their meshes stand in their rest pose");
-  add_note(file, textured, "materials have metallic-roughness, normal or occlusion textures, which are ignored");
+  add_note(file, textured,
+           "materials have metallic-roughness, normal or occlusion textures, which are ignored");
   add_note(file, emissive, "materials emit light by themselves, which is ignored");
   add_note(file, extended, "materials have extensions, which are ignored");
   add_note(file, wrapped, "texture samplers clamp or mirror; all textures are repeated");

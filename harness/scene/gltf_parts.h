@@ -1,4 +1,5 @@
-// The pieces of the glTF importer: each turns one part of a checked File into its part of a Scene. Private to the importer.
+// The pieces of the glTF importer: each turns one part of a checked File into its part of a Scene. Private to
+// the importer.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -29,15 +30,17 @@ glm::dmat4 local_transform(const File& file, size_t node);
 Pose local_pose(const File& file, size_t node);
 glm::dmat4 matrix_of(const Pose& pose);
 
-// gltf_mesh.cpp. Fills vertices, indices, draws and bounds, and subtracts the whole metres nearest to the middle of the bounds
-// (or `center`, where one is given). Returns what was subtracted.
-glm::dvec3 load_meshes(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3* center, Scene& scene);
+// gltf_mesh.cpp. Fills vertices, indices, draws and bounds, and subtracts the whole metres nearest to the
+// middle of the bounds (or `center`, where one is given). Returns what was subtracted.
+glm::dvec3 load_meshes(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3* center,
+                       Scene& scene);
 
-// gltf_material.cpp. The materials in the file's order and the textures that they use. At the end comes a material for
-// primitives without one; it is dropped by load_meshes when nothing uses it.
+// gltf_material.cpp. The materials in the file's order and the textures that they use. At the end comes a
+// material for primitives without one; it is dropped by load_meshes when nothing uses it.
 void load_materials(File& file, Scene& scene);
 
-// Where a material's base colour texture finds its coordinates, and how they are moved (KHR_texture_transform).
+// Where a material's base colour texture finds its coordinates, and how they are moved
+// (KHR_texture_transform).
 struct TextureMapping {
   int set = 0;  // of TEXCOORD_n
   glm::dvec2 offset{0}, scale{1};
@@ -48,7 +51,8 @@ TextureMapping texture_mapping(const File& file, int material);
 // gltf_light.cpp. Lights of the nodes and of the side file, relative to `center`.
 void load_lights(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3& center, Scene& scene);
 
-// gltf_camera.cpp. One path per camera, relative to `center`; sets scene.near from the first. No path when there is no camera.
+// gltf_camera.cpp. One path per camera, relative to `center`; sets scene.near from the first. No path when
+// there is no camera.
 void load_cameras(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3& center, Scene& scene);
 
 // gltf_animation.cpp. How one node moves.
@@ -83,9 +87,10 @@ std::vector<std::byte> encode_png(const Texture& texture);
 // gltf_tiny.cpp. tinygltf's Model of the checked description. Throws UsageError.
 tinygltf::Model parse_model(const File& file);
 
-// gltf_light_file.cpp: FILE.lights.bin, all little-endian: "MLLIGHTS", uint32 version (1), uint32 count, then for each
-// light 64 bytes: double position[3] (m, relative to the level's origin), float radius (m), float intensity[3] (W/sr), float direction[3],
-// float inner_angle, float outer_angle (radians), uint32 shape (0 omni, 1 spot).
+// gltf_light_file.cpp: FILE.lights.bin, all little-endian: "MLLIGHTS", uint32 version (1), uint32 count, then
+// for each light 64 bytes: double position[3] (m, relative to the level's origin), float radius (m), float
+// intensity[3] (W/sr), float direction[3], float inner_angle, float outer_angle (radians), uint32 shape (0
+// omni, 1 spot).
 constexpr size_t max_file_lights = 1048576;
 std::vector<std::byte> encode_lights(const std::vector<Light>& lights);
 std::vector<Light> decode_lights(const std::string& name, Bytes bytes);

@@ -1,6 +1,6 @@
-// What the importer reads of a glTF description, as a table: anything else is left behind, and what is there has the type, the
-// range and the reference that glTF 2.0 demands (Khronos, "glTF 2.0 Specification", section 5, and the ratified extensions
-// KHR_lights_punctual, KHR_mesh_quantization and KHR_texture_transform).
+// What the importer reads of a glTF description, as a table: anything else is left behind, and what is there
+// has the type, the range and the reference that glTF 2.0 demands (Khronos, "glTF 2.0 Specification", section
+// 5, and the ratified extensions KHR_lights_punctual, KHR_mesh_quantization and KHR_texture_transform).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,14 +18,15 @@ struct Field {
   const char* key;
   Kind kind;
   bool required = false;
-  // Members of `extras` may have any type: what is not an object there is somebody else's, and is passed over.
+  // Members of `extras` may have any type: what is not an object there is somebody else's, and is passed
+  // over.
   bool lenient = false;
   double low = -std::numeric_limits<double>::max(), high = std::numeric_limits<double>::max();
-  size_t length = 0;                     // of `numbers`
-  const char* target = nullptr;          // integer, references: an index into this array of the file
-  std::vector<std::string> words = {};   // text: the allowed ones, empty for any
-  std::vector<double> values = {};       // integer: the allowed ones, empty for any
-  std::vector<Field> fields = {};        // object, objects
+  size_t length = 0;                    // of `numbers`
+  const char* target = nullptr;         // integer, references: an index into this array of the file
+  std::vector<std::string> words = {};  // text: the allowed ones, empty for any
+  std::vector<double> values = {};      // integer: the allowed ones, empty for any
+  std::vector<Field> fields = {};       // object, objects
 };
 using Fields = std::vector<Field>;
 
@@ -78,15 +79,16 @@ Field own_extras(Fields fields) {
 }
 
 Fields node_fields() {
-  return {text("name"),
-          reference("mesh", "meshes"),
-          reference("camera", "cameras"),
-          references("children", "nodes"),
-          numbers("matrix", 16),
-          numbers("translation", 3),
-          numbers("rotation", 4),
-          numbers("scale", 3),
-          object("extensions", {object("KHR_lights_punctual", {required(reference("light", lights_array))})})};
+  return {
+      text("name"),
+      reference("mesh", "meshes"),
+      reference("camera", "cameras"),
+      references("children", "nodes"),
+      numbers("matrix", 16),
+      numbers("translation", 3),
+      numbers("rotation", 4),
+      numbers("scale", 3),
+      object("extensions", {object("KHR_lights_punctual", {required(reference("light", lights_array))})})};
 }
 
 Fields primitive_fields() {
@@ -99,27 +101,30 @@ Fields primitive_fields() {
 }
 
 Fields accessor_fields() {
-  return {reference("bufferView", "bufferViews"),
-          size("byteOffset"),
-          required(one_of("componentType", {5120, 5121, 5122, 5123, 5125, 5126})),
-          boolean("normalized"),
-          required(size("count", 1)),
-          required(text("type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"})),
-          object("sparse", {required(size("count", 1)),
-                            required(object("indices", {required(reference("bufferView", "bufferViews")), size("byteOffset"),
-                                                        required(one_of("componentType", {5121, 5123, 5125}))})),
-                            required(object("values",
-                                            {required(reference("bufferView", "bufferViews")), size("byteOffset")}))})};
+  return {
+      reference("bufferView", "bufferViews"),
+      size("byteOffset"),
+      required(one_of("componentType", {5120, 5121, 5122, 5123, 5125, 5126})),
+      boolean("normalized"),
+      required(size("count", 1)),
+      required(text("type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"})),
+      object(
+          "sparse",
+          {required(size("count", 1)),
+           required(object("indices", {required(reference("bufferView", "bufferViews")), size("byteOffset"),
+                                       required(one_of("componentType", {5121, 5123, 5125}))})),
+           required(
+               object("values", {required(reference("bufferView", "bufferViews")), size("byteOffset")}))})};
 }
 
 Fields material_fields() {
-  Field transform = object("KHR_texture_transform",
-                           {numbers("offset", 2), number("rotation"), numbers("scale", 2), size("texCoord", 0, 7)});
-  Field texture = object("baseColorTexture", {required(reference("index", "textures")), size("texCoord", 0, 7),
-                                              object("extensions", {transform})});
+  Field transform = object("KHR_texture_transform", {numbers("offset", 2), number("rotation"),
+                                                     numbers("scale", 2), size("texCoord", 0, 7)});
+  Field texture = object("baseColorTexture", {required(reference("index", "textures")),
+                                              size("texCoord", 0, 7), object("extensions", {transform})});
   return {text("name"),
-          object("pbrMetallicRoughness",
-                 {numbers("baseColorFactor", 4), texture, number("metallicFactor"), number("roughnessFactor")}),
+          object("pbrMetallicRoughness", {numbers("baseColorFactor", 4), texture, number("metallicFactor"),
+                                          number("roughnessFactor")}),
           text("alphaMode", {"OPAQUE", "MASK", "BLEND"}), number("alphaCutoff", 0), boolean("doubleSided")};
 }
 
@@ -127,22 +132,29 @@ Fields camera_fields() {
   return {text("name"), required(text("type", {"perspective", "orthographic"})),
           object("perspective", {required(number("yfov", tiny, 3.1415926)), required(number("znear", tiny)),
                                  number("zfar", tiny), number("aspectRatio", tiny)}),
-          object("orthographic", {required(number("xmag")), required(number("ymag")), required(number("znear", 0)),
-                                  required(number("zfar", tiny))}),
+          object("orthographic", {required(number("xmag")), required(number("ymag")),
+                                  required(number("znear", 0)), required(number("zfar", tiny))}),
           own_extras({numbers("window", 4)})};
 }
 
 Fields animation_fields() {
-  return {text("name"),
-          required(objects("channels", {required(size("sampler")),
-                                        required(object("target", {reference("node", "nodes"), required(text("path"))}))})),
-          required(objects("samplers", {required(reference("input", "accessors")), required(reference("output", "accessors")),
-                                        text("interpolation", {"LINEAR", "STEP", "CUBICSPLINE"})}))};
+  return {
+      text("name"),
+      required(objects("channels",
+                       {required(size("sampler")),
+                        required(object("target", {reference("node", "nodes"), required(text("path"))}))})),
+      required(objects("samplers",
+                       {required(reference("input", "accessors")), required(reference("output", "accessors")),
+                        text("interpolation", {"LINEAR", "STEP", "CUBICSPLINE"})}))};
 }
 
 Fields light_fields() {
-  return {text("name"), required(text("type", {"directional", "point", "spot"})), numbers("color", 3), number("intensity"),
-          number("range"), object("spot", {number("innerConeAngle"), number("outerConeAngle")}),
+  return {text("name"),
+          required(text("type", {"directional", "point", "spot"})),
+          numbers("color", 3),
+          number("intensity"),
+          number("range"),
+          object("spot", {number("innerConeAngle"), number("outerConeAngle")}),
           own_extras({numbers("cone", 2)})};
 }
 
@@ -150,16 +162,18 @@ const Fields& document_fields() {
   static const Fields fields = {
       required(object("asset", {required(text("version")), text("minVersion"),
                                 own_extras({text("name"), number("near", tiny, max_coordinate),
-                                            number("far", tiny, max_coordinate), numbers("origin", 3), text("lights")})})),
+                                            number("far", tiny, max_coordinate), numbers("origin", 3),
+                                            text("lights")})})),
       reference("scene", "scenes"),
       objects("scenes", {text("name"), references("nodes", "nodes")}),
       objects("nodes", node_fields()),
       objects("meshes", {text("name"), required(objects("primitives", primitive_fields()))}),
       objects("accessors", accessor_fields()),
-      objects("bufferViews", {required(reference("buffer", "buffers")), size("byteOffset"), required(size("byteLength", 1)),
-                              size("byteStride", 4, 252)}),
+      objects("bufferViews", {required(reference("buffer", "buffers")), size("byteOffset"),
+                              required(size("byteLength", 1)), size("byteStride", 4, 252)}),
       objects("buffers", {required(size("byteLength", 1)), text("uri")}),
-      objects("images", {text("uri"), reference("bufferView", "bufferViews"), text("mimeType")}),
+      objects("images",
+              {text("name"), text("uri"), reference("bufferView", "bufferViews"), text("mimeType")}),
       objects("textures", {reference("source", "images"), reference("sampler", "samplers")}),
       objects("samplers", {size("wrapS"), size("wrapT")}),
       objects("materials", material_fields()),
@@ -186,7 +200,8 @@ class Checker {
     for (const Field& field : fields) {
       auto found = value.find(field.key);
       if (found == value.end()) {
-        if (field.required) file_.fail(place.empty() ? "top level" : place, std::string("'") + field.key + "' is missing");
+        if (field.required)
+          file_.fail(place.empty() ? "top level" : place, std::string("'") + field.key + "' is missing");
         continue;
       }
       if (field.lenient && !found->is_object()) continue;
@@ -215,11 +230,15 @@ class Checker {
       case Kind::numbers:
         return number_array(value, field, place);
       case Kind::references:
-        return each(value, place, [&](const Json& item, const std::string& where) { return index(item, field.target, where); });
+        return each(value, place, [&](const Json& item, const std::string& where) {
+          return index(item, field.target, where);
+        });
       case Kind::object:
         return object(value, field.fields, place);
       case Kind::objects:
-        return each(value, place, [&](const Json& item, const std::string& where) { return object(item, field.fields, where); });
+        return each(value, place, [&](const Json& item, const std::string& where) {
+          return object(item, field.fields, where);
+        });
     }
     return {};
   }
@@ -228,7 +247,8 @@ class Checker {
   Json each(const Json& value, const std::string& place, Read&& read) const {
     if (!value.is_array()) file_.fail(place, "expected an array");
     Json result = Json::array();
-    for (size_t i = 0; i < value.size(); ++i) result.push_back(read(value[i], place + "[" + std::to_string(i) + "]"));
+    for (size_t i = 0; i < value.size(); ++i)
+      result.push_back(read(value[i], place + "[" + std::to_string(i) + "]"));
     return result;
   }
 
@@ -236,8 +256,10 @@ class Checker {
     if (!value.is_number()) file_.fail(place, "expected a number");
     auto found = value.get<double>();
     if (!(found >= field.low && found <= field.high)) {
-      std::string expected = field.low == tiny ? "a number above 0" : "a number of at least " + Json(field.low).dump();
-      if (field.high < std::numeric_limits<double>::max()) expected += " and at most " + Json(field.high).dump();
+      std::string expected =
+          field.low == tiny ? "a number above 0" : "a number of at least " + Json(field.low).dump();
+      if (field.high < std::numeric_limits<double>::max())
+        expected += " and at most " + Json(field.high).dump();
       file_.fail(place, "is " + value.dump() + ", expected " + expected);
     }
     return found;
@@ -278,7 +300,8 @@ class Checker {
   Json number_array(const Json& value, const Field& field, const std::string& place) const {
     if (!value.is_array() || value.size() != field.length)
       file_.fail(place, "expected " + std::to_string(field.length) + " numbers");
-    return each(value, place, [&](const Json& item, const std::string& where) { return in_range(item, field, where); });
+    return each(value, place,
+                [&](const Json& item, const std::string& where) { return in_range(item, field, where); });
   }
 
   const File& file_;
@@ -287,7 +310,8 @@ class Checker {
 
 // glTF 2.x up to the minimum that the file asks for; extensions that change the meaning of what is there.
 void check_version_and_extensions(const File& file, const Json& raw, const Json& checked) {
-  static const std::vector<std::string> known = {"KHR_lights_punctual", "KHR_mesh_quantization", "KHR_texture_transform"};
+  static const std::vector<std::string> known = {"KHR_lights_punctual", "KHR_mesh_quantization",
+                                                 "KHR_texture_transform"};
   std::string version = checked["asset"]["version"];
   if (!version.starts_with("2.")) file.fail("asset.version", "expected glTF 2.x, found '" + version + "'");
   if (std::string least = checked["asset"].value("minVersion", "2.0"); least != "2.0")
@@ -299,9 +323,35 @@ void check_version_and_extensions(const File& file, const Json& raw, const Json&
     const Json& name = (*needed)[i];
     if (!name.is_string()) file.fail(at("extensionsRequired", i), "expected a string");
     if (std::find(known.begin(), known.end(), name.get<std::string>()) == known.end())
-      file.fail(at("extensionsRequired", i),
-                "'" + name.get<std::string>() + "' is not supported" + suggestion(name.get<std::string>(), known));
+      file.fail(at("extensionsRequired", i), "'" + name.get<std::string>() + "' is not supported" +
+                                                 suggestion(name.get<std::string>(), known));
   }
+}
+
+// What the table cannot say: members that others ask for. tinygltf would stop at these without naming a
+// place.
+void check_companions(const File& file, const Json& checked) {
+  auto list = [](const Json& parent, const char* key) { return parent.value(key, Json::array()); };
+  const Json accessors = list(checked, "accessors"), meshes = list(checked, "meshes"),
+             views = list(checked, "bufferViews"), cameras = list(checked, "cameras"),
+             lights = list(checked.value("/extensions/KHR_lights_punctual"_json_pointer, Json::object()),
+                           "lights");
+  for (size_t i = 0; i < views.size(); ++i)
+    if (int stride = views[i].value("byteStride", 4); stride % 4 != 0)
+      file.fail(at("bufferViews", i) + ".byteStride",
+                "is " + std::to_string(stride) + ", expected a multiple of 4");
+  for (size_t i = 0; i < cameras.size(); ++i)
+    if (std::string type = cameras[i]["type"]; !cameras[i].contains(type))
+      file.fail(at("cameras", i), "'" + type + "' is missing");
+  for (size_t i = 0; i < lights.size(); ++i)
+    if (lights[i]["type"] == "spot" && !lights[i].contains("spot"))
+      file.fail(std::string(lights_array) + "[" + std::to_string(i) + "]", "'spot' is missing");
+  for (size_t m = 0; m < meshes.size(); ++m)
+    for (size_t p = 0; p < meshes[m]["primitives"].size(); ++p)
+      if (const Json& primitive = meshes[m]["primitives"][p]; primitive.contains("indices"))
+        if (auto index = primitive["indices"].get<size_t>(); !accessors[index].contains("bufferView"))
+          file.fail(at("meshes", m) + "." + at("primitives", p) + ".indices",
+                    at("accessors", index) + " has no buffer view, which is supported for vertices alone");
 }
 
 }  // namespace
@@ -310,6 +360,7 @@ Json checked_description(const File& file, const Json& raw) {
   if (!raw.is_object()) file.fail("JSON", "expected an object at the top");
   Json checked = Checker(file, raw).object(raw, document_fields(), "");
   check_version_and_extensions(file, raw, checked);
+  check_companions(file, checked);
   return checked;
 }
 

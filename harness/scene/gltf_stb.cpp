@@ -21,7 +21,8 @@
 namespace ml::gltf {
 namespace {
 
-// Deflate makes at most 1032 bytes out of one (and a PNG holds at least 1 bit per pixel), progressive JPEG some 10^4 pixels.
+// Deflate makes at most 1032 bytes out of one (and a PNG holds at least 1 bit per pixel), progressive JPEG
+// some 10^4 pixels.
 constexpr size_t pixels_per_byte = 16384;
 
 std::string reason() {
@@ -45,8 +46,8 @@ Texture decode_image(const File& file, const std::string& place, Bytes bytes, si
   if (pixels / pixels_per_byte > bytes.size())
     file.fail(place, extent + " cannot come out of " + std::to_string(bytes.size()) + " bytes");
 
-  std::unique_ptr<stbi_uc, void (*)(void*)> decoded(stbi_load_from_memory(data, size, &width, &height, &channels, 4),
-                                                    stbi_image_free);
+  std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
+      stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
   if (!decoded) file.fail(place, "the image cannot be decoded: " + reason());
   Texture texture;
   texture.width = static_cast<uint32_t>(width);

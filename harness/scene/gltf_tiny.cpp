@@ -1,5 +1,5 @@
-// The one place that compiles tinygltf. It reads only what checked_description() let through, so that its own leniency
-// (unchecked indices, recursion over extras, network-sized data URIs) never meets the file.
+// The one place that compiles tinygltf. It reads only what checked_description() let through, so that its own
+// leniency (unchecked indices, recursion over extras, network-sized data URIs) never meets the file.
 #include <fstream>
 
 #define TINYGLTF_IMPLEMENTATION
@@ -16,7 +16,8 @@ tinygltf::Model parse_model(const File& file) {
   tinygltf::TinyGLTF loader;
   tinygltf::Model model;
   std::string error, warning;
-  if (!loader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned int>(text.size()), "", 0))
+  if (!loader.LoadASCIIFromString(&model, &error, &warning, text.data(),
+                                  static_cast<unsigned int>(text.size()), "", 0))
     file.fail("JSON", error.empty() ? "tinygltf cannot read it" : error);
   return model;
 }

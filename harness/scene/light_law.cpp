@@ -54,7 +54,8 @@ double default_base_size(const Scene& scene, Placement placement, double ratio) 
   // A level without thickness has no volume: its lights lie on its surface.
   double area = surface_area(scene);
   if (!(area > 0)) return 1;
-  return std::sqrt(kWantedOverdraw * area / (kSurfaceGain * kReferenceCount * kPi * moments.square * (11.0 / 12)));
+  return std::sqrt(kWantedOverdraw * area /
+                   (kSurfaceGain * kReferenceCount * kPi * moments.square * (11.0 / 12)));
 }
 
 double intensity_for_radius(double radius) {

@@ -6,13 +6,8 @@
 #include <cmath>
 
 #include "harness/base/error.h"
-#include "harness/base/random.h"
 
 namespace ml {
-
-float light_number(uint32_t seed, uint32_t light, LightDimension dimension) {
-  return unit_float(hash_u32(seed, light, static_cast<uint32_t>(dimension)));
-}
 
 SurfaceSampler::SurfaceSampler(const Scene& scene, bool by_area) : scene_(scene) {
   if (scene.triangle_count() == 0) {
@@ -30,7 +25,8 @@ SurfaceSampler::SurfaceSampler(const Scene& scene, bool by_area) : scene_(scene)
   }
   area_before_.push_back(sum);
   if (!(sum > 0)) {
-    throw UsageError(one_line(fmt::format("scene '{}': its triangles have no area to put lights on", scene.name)));
+    throw UsageError(
+        one_line(fmt::format("scene '{}': its triangles have no area to put lights on", scene.name)));
   }
 }
 

@@ -4,17 +4,40 @@
 #include <cstdint>
 #include <vector>
 
+#include "harness/base/random.h"
 #include "harness/scene/light_set.h"
 #include "harness/scene/scene.h"
 
 namespace ml {
 
-// The dimensions of a light's random numbers: light i of seed s has the number unit_float(hash_u32(s, i, dimension)), so it keeps
-// its place, colour and script whatever the count is.
+// The dimensions of a light's random numbers: light i of seed s has the number unit_float(hash_u32(s, i,
+// dimension)), so it keeps its place, colour and script whatever the count is.
 enum class LightDimension : uint32_t {
-  place_0, place_1, place_2, lift, radius, hue, is_spot, tilt, azimuth, cone, rate, phase, orbit
+  place_0,
+  place_1,
+  place_2,
+  lift,
+  radius,
+  hue,
+  is_spot,
+  tilt,
+  azimuth,
+  cone,
+  rate,
+  phase,
+  orbit
 };
-float light_number(uint32_t seed, uint32_t light, LightDimension dimension);
+class LightNumbers {
+ public:
+  // `seed_hash` is hash_u32(seed): the same for all lights.
+  LightNumbers(uint32_t seed_hash, uint32_t light) : hash_(hash_u32(seed_hash + light)) {}
+  float operator()(LightDimension dimension) const {
+    return unit_float(hash_u32(hash_ + static_cast<uint32_t>(dimension)));
+  }
+
+ private:
+  uint32_t hash_;
+};
 
 // Uniform over triangles or over area.
 class SurfaceSampler {
@@ -31,7 +54,8 @@ class SurfaceSampler {
 
  private:
   const Scene& scene_;
-  std::vector<double> area_before_;  // area of the triangles before each, then the whole; empty: all triangles alike
+  std::vector<double>
+      area_before_;  // area of the triangles before each, then the whole; empty: all triangles alike
 };
 
 }  // namespace ml

@@ -9,11 +9,14 @@
 
 namespace ml {
 
-// Seconds of frame `frame` on a path of `frames` frames; a camera that stands still (duration 0) runs at 60 frames a second.
+// Seconds of frame `frame` on a path of `frames` frames; a camera that stands still (duration 0) runs at 60
+// frames a second.
 double script_time(uint32_t frame, uint32_t frames, double duration);
 
-// The lights of `base` as they are at `seconds`, in their order, without those that do not shine then. Light i of `base` is number i of
-// `seed`. `out` is overwritten; nothing is allocated once it has the capacity of `base`.
-void run_script(LightScript script, uint32_t seed, double seconds, std::span<const Light> base, std::vector<Light>& out);
+// The lights of `base` as they are at `seconds`, in their order, without those that do not shine then. Light
+// i of `base` is number i of `seed`. `out` is overwritten; nothing is allocated once it has the capacity of
+// `base`.
+void run_script(LightScript script, uint32_t seed, double seconds, std::span<const Light> base,
+                std::vector<Light>& out);
 
 }  // namespace ml

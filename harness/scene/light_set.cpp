@@ -19,7 +19,8 @@ namespace {
 constexpr uint32_t kMaxLights = 1048576;
 constexpr double kDegree = 3.141592653589793 / 180;
 
-// The closed-form scene has its own lights: equal, at one height, uniform over its area whatever the placement.
+// The closed-form scene has its own lights: equal, at one height, uniform over its area whatever the
+// placement.
 LightSpec adapted(LightSpec spec, const Scene& scene) {
   if (scene.name != "plane" || spec.placement == Placement::gltf) return spec;
   spec.placement = Placement::area;
@@ -40,14 +41,14 @@ glm::vec3 colour_of_hue(float hue) {
 }
 
 // Stage lights: tilted 25 to 65 degrees from straight down, half-angle 14 to 30 degrees.
-void make_spot(uint32_t seed, uint32_t index, Light& light) {
+void make_spot(const LightNumbers& number, Light& light) {
   light.shape = LightShape::spot;
-  double tilt = (25 + 40 * light_number(seed, index, LightDimension::tilt)) / 360.0;
-  double azimuth = light_number(seed, index, LightDimension::azimuth);
+  double tilt = (25 + 40 * number(LightDimension::tilt)) / 360.0;
+  double azimuth = number(LightDimension::azimuth);
   double level = sine_of_turns(tilt);
   light.direction = glm::vec3(glm::normalize(
       glm::dvec3(level * cosine_of_turns(azimuth), -cosine_of_turns(tilt), level * sine_of_turns(azimuth))));
-  double outer = (14 + 16 * light_number(seed, index, LightDimension::cone)) * kDegree;
+  double outer = (14 + 16 * number(LightDimension::cone)) * kDegree;
   light.outer_angle = static_cast<float>(outer);
   light.inner_angle = static_cast<float>(0.7 * outer);
 }
@@ -76,21 +77,21 @@ const std::vector<std::string>& light_script_names() {
 const char* rejection_reason(const Light& light) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(light.position[axis])) return "position is not finite";
-    if (std::abs(light.position[axis]) > 1e12) return "position is beyond 1e12 m";
+    if (std::abs(light.position[axis]) > kMaxLightPosition) return "position is beyond 1e12 m";
   }
   if (!std::isfinite(light.radius)) return "radius is not finite";
   if (light.radius < 0) return "radius is negative";
   if (light.radius == 0) return "radius is 0";
-  // The shaders square the radius and its inverse in single precision.
-  if (light.radius < 1e-12f) return "radius is below 1e-12 m";
-  if (light.radius > 1e12f) return "radius is above 1e12 m";
+  if (light.radius < kMinLightRadius) return "radius is below 1e-12 m";
+  if (light.radius > kMaxLightRadius) return "radius is above 1e12 m";
   if (!finite(light.intensity)) return "intensity is not finite";
   if (light.intensity.x < 0 || light.intensity.y < 0 || light.intensity.z < 0) return "intensity is negative";
   if (light.shape != LightShape::spot) return nullptr;
   if (!finite(light.direction)) return "direction is not finite";
   float square = glm::dot(light.direction, light.direction);
   if (!(std::abs(square - 1) < 1e-3f)) return "direction is not of unit length";
-  if (!std::isfinite(light.inner_angle) || !std::isfinite(light.outer_angle)) return "cone angle is not finite";
+  if (!std::isfinite(light.inner_angle) || !std::isfinite(light.outer_angle))
+    return "cone angle is not finite";
   if (light.outer_angle <= 0) return "outer cone angle is not above 0";
   if (light.outer_angle > 3.1415928f) return "outer cone angle is above pi";
   if (light.inner_angle < 0) return "inner cone angle is negative";
@@ -126,10 +127,12 @@ LightSet::LightSet(const LightSpec& spec, const Scene& scene) : spec_(adapted(sp
     return;
   }
 
-  double s0 = spec_.base_size > 0 ? spec_.base_size
-                                  : default_base_size(scene, spec_.placement, static_cast<double>(spec_.radius_ratio));
-  size_ = spec_.radius > 0 ? spec_.radius
-                           : static_cast<float>(size_for_count(s0, spec_.count, spec_.sizing, spec_.placement));
+  double s0 = spec_.base_size > 0
+                  ? spec_.base_size
+                  : default_base_size(scene, spec_.placement, static_cast<double>(spec_.radius_ratio));
+  size_ = spec_.radius > 0
+              ? spec_.radius
+              : static_cast<float>(size_for_count(s0, spec_.count, spec_.sizing, spec_.placement));
   if (spec_.count == 0) return;
   std::optional<SurfaceSampler> surface;
   if (spec_.placement != Placement::volume) surface.emplace(scene, spec_.placement == Placement::area);
@@ -137,23 +140,24 @@ LightSet::LightSet(const LightSpec& spec, const Scene& scene) : spec_(adapted(sp
   glm::dvec3 corner(scene.bounds.min), extent(glm::dvec3(scene.bounds.max) - corner);
   lights_.reserve(spec_.count);
   for (uint32_t i = 0; i < spec_.count; ++i) {
-    auto number = [&](LightDimension dimension) {
-      return static_cast<double>(light_number(spec_.seed, i, dimension));
-    };
+    LightNumbers number(hash_u32(spec_.seed), i);
     Light light;
-    auto u = static_cast<float>(number(LightDimension::radius));
-    light.radius = spec_.radius > 0 ? spec_.radius : pareto_radius(u, size_, spec_.radius_ratio);
-    glm::dvec3 choice(number(LightDimension::place_0), number(LightDimension::place_1), number(LightDimension::place_2));
+    light.radius = spec_.radius > 0
+                       ? spec_.radius
+                       : pareto_radius(number(LightDimension::radius), size_, spec_.radius_ratio);
+    glm::dvec3 choice(number(LightDimension::place_0), number(LightDimension::place_1),
+                      number(LightDimension::place_2));
     if (surface) {
       SurfaceSampler::Point point = surface->at(choice.x, choice.y, choice.z);
-      double lift = spec_.height > 0 ? spec_.height : 0.5 * light.radius * number(LightDimension::lift);
+      double lift = spec_.height > 0 ? spec_.height
+                                     : 0.5 * static_cast<double>(light.radius) * number(LightDimension::lift);
       light.position = point.position + lift * point.normal;
     } else {
       light.position = corner + extent * choice;
     }
-    glm::vec3 colour = colour_of_hue(static_cast<float>(number(LightDimension::hue)));
+    glm::vec3 colour = colour_of_hue(number(LightDimension::hue));
     light.intensity = colour * static_cast<float>(intensity_for_radius(light.radius)) * spec_.intensity;
-    if (number(LightDimension::is_spot) < spec_.spot_fraction) make_spot(spec_.seed, i, light);
+    if (number(LightDimension::is_spot) < spec_.spot_fraction) make_spot(number, light);
     accept(light);
   }
 }

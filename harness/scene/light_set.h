@@ -1,4 +1,5 @@
-// Many lights from a few numbers: radius law, placement, sizing and scripts. Pure functions of the description, the scene and the frame.
+// Many lights from a few numbers: radius law, placement, sizing and scripts. Pure functions of the
+// description, the scene and the frame.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +12,17 @@
 
 namespace ml {
 
-enum class Placement { volume, triangle, area, gltf };      // uniform in the scene's box | over triangles | over surface area | the file's own
-enum class Sizing { const_overdraw, fixed_size };           // s(N) shrinks so that overdraw stays | the same s at every N
-enum class LightScript { none, drift, spawn };              // configuration name of `none`: "static"
+enum class Placement {
+  volume,
+  triangle,
+  area,
+  gltf
+};  // uniform in the scene's box | over triangles | over surface area | the file's own
+enum class Sizing {
+  const_overdraw,
+  fixed_size
+};                                              // s(N) shrinks so that overdraw stays | the same s at every N
+enum class LightScript { none, drift, spawn };  // configuration name of `none`: "static"
 
 // Names as in a configuration, in the order of the enumerators.
 const std::vector<std::string>& placement_names();
@@ -22,13 +31,15 @@ const std::vector<std::string>& light_script_names();
 
 struct LightSpec {
   Placement placement = Placement::volume;
-  uint32_t count = 8192;    // [0, 1048576]
+  uint32_t count = 8192;  // [0, 1048576]
   Sizing sizing = Sizing::const_overdraw;
-  float base_size = 0;      // m, s0 of the radius law at 65,536 lights; 0: the scene's own (scenes.md), or for a glTF level the size
-                            // that gives about 3 lights per visible point by the overdraw formula of the placement
+  float base_size =
+      0;  // m, s0 of the radius law at 65,536 lights; 0: the scene's own (scenes.md), or for a glTF level the
+          // size that gives about 3 lights per visible point by the overdraw formula of the placement
   float radius_ratio = 32;  // largest radius / smallest, [1, 1000]
   float radius = 0;         // m, > 0: every light has this radius, and the law is not used
-  float height = 0;         // m, placement `area` and `triangle` on `plane`: > 0 puts every light exactly this far along the surface normal
+  float height = 0;  // m, placement `area` and `triangle` on `plane`: > 0 puts every light exactly this far
+                     // along the surface normal
   float spot_fraction = 0;  // [0, 1]: this part of the lights (by hash) are spots
   float intensity = 1;      // factor on all intensities, > 0
   uint32_t seed = 1;
@@ -36,10 +47,17 @@ struct LightSpec {
 };
 
 // How many lights were refused and why; refused lights are counted once, by the first reason that holds.
-using Rejections = std::map<std::string, uint32_t>;  // "radius is 0", "radius is negative", "radius is not finite", ...
+using Rejections =
+    std::map<std::string, uint32_t>;  // "radius is 0", "radius is negative", "radius is not finite", ...
 
-// The reason why a light cannot be used, or nullptr when it can: position, radius, intensity and angles finite; radius > 0; intensity >= 0;
-// direction of unit length for spots; 0 < outer_angle <= pi and inner_angle <= outer_angle (they may be equal).
+// Radii beyond these (m) leave the range of single precision when the shaders square them; positions (m) have
+// a limit for the same reason.
+inline constexpr float kMinLightRadius = 1e-12f, kMaxLightRadius = 1e12f;
+inline constexpr double kMaxLightPosition = 1e12;
+
+// The reason why a light cannot be used, or nullptr when it can: position, radius, intensity and angles
+// finite and within the limits above; radius > 0; intensity >= 0; direction of unit length for spots; 0 <
+// outer_angle <= pi and inner_angle <= outer_angle (they may be equal).
 const char* rejection_reason(const Light& light);
 
 // The lights of a run. `at(frame)` is a pure function of (spec, scene, frame).
@@ -48,10 +66,11 @@ class LightSet {
   // Throws UsageError when the scene cannot carry the placement (`gltf` without lights).
   LightSet(const LightSpec& spec, const Scene& scene);
 
-  // The lights that shine in frame `frame` of a path of `frames` frames that lasts `duration` seconds, in ascending order of their stable
-  // identity. drift: each light orbits its place within its own radius. spawn: each light has a seeded life and pause, and fades
-  // in and out by its radius; about 70 % shine at once. Never returns a light that rejection_reason() refuses.
-  // Reuses `out`; allocates nothing once `out` has its capacity.
+  // The lights that shine in frame `frame` of a path of `frames` frames that lasts `duration` seconds, in
+  // ascending order of their stable identity. drift: each light orbits its place within its own radius.
+  // spawn: each light has a seeded life and pause, and fades in and out by its radius; about 70 % shine at
+  // once. Never returns a light that rejection_reason() refuses. Reuses `out`; allocates nothing once `out`
+  // has its capacity.
   void at(uint32_t frame, uint32_t frames, double duration, std::vector<Light>& out) const;
 
   const std::vector<Light>& base() const { return lights_; }  // accepted lights before scripting

@@ -73,16 +73,17 @@ void MeshBuilder::box(const glm::dvec3& lo, const glm::dvec3& hi, uint32_t mater
   if (faces & south) quad(corner(0, 0, 1), corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1), material);
 }
 
-void MeshBuilder::prism(const glm::dvec3& foot, double height, double foot_radius, double top_radius, int sides,
-                        uint32_t material) {
+void MeshBuilder::prism(const glm::dvec3& foot, double height, double foot_radius, double top_radius,
+                        int sides, uint32_t material) {
   auto rim = [&](int i, double radius, double y) {
     double turns = (i + 0.5) / sides;
     return foot + glm::dvec3(radius * cosine_of_turns(turns), y, -radius * sine_of_turns(turns));
   };
   for (int i = 0; i < sides; ++i) {
-    quad(rim(i, foot_radius, 0), rim(i + 1, foot_radius, 0), rim(i + 1, top_radius, height), rim(i, top_radius, height),
-         material);
-    triangle(foot + glm::dvec3(0, height, 0), rim(i, top_radius, height), rim(i + 1, top_radius, height), material);
+    quad(rim(i, foot_radius, 0), rim(i + 1, foot_radius, 0), rim(i + 1, top_radius, height),
+         rim(i, top_radius, height), material);
+    triangle(foot + glm::dvec3(0, height, 0), rim(i, top_radius, height), rim(i + 1, top_radius, height),
+             material);
   }
 }
 
@@ -94,7 +95,8 @@ Scene MeshBuilder::finish() {
   for (uint32_t material = 0; material < indices_.size(); ++material) {
     const std::vector<uint32_t>& run = indices_[material];
     if (run.empty()) continue;
-    scene.draws.push_back({static_cast<uint32_t>(scene.indices.size()), static_cast<uint32_t>(run.size()), material});
+    scene.draws.push_back(
+        {static_cast<uint32_t>(scene.indices.size()), static_cast<uint32_t>(run.size()), material});
     scene.indices.insert(scene.indices.end(), run.begin(), run.end());
   }
   indices_.clear();

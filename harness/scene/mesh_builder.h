@@ -11,12 +11,13 @@
 
 namespace ml {
 
-// `value` rounded to 1/1024 m: exact in float up to 16 km, so that a last-bit difference in what computed it does not reach the
-// vertices, and exported bytes are the same everywhere.
+// `value` rounded to 1/1024 m: exact in float up to 16 km, so that a last-bit difference in what computed it
+// does not reach the vertices, and exported bytes are the same everywhere.
 double quantised(double value);
 glm::dvec3 quantised(const glm::dvec3& value);
 
-// Positions are quantised; equal vertices (position and normal) become one; triangles without area are left out.
+// Positions are quantised; equal vertices (position and normal) become one; triangles without area are left
+// out.
 class MeshBuilder {
  public:
   enum Face : unsigned { west = 1, east = 2, bottom = 4, top = 8, north = 16, south = 32, all = 63 };
@@ -26,11 +27,13 @@ class MeshBuilder {
   // Counter-clockwise from outside, flat shaded.
   void triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, uint32_t material);
   // Flat; a, b, c, d counter-clockwise. Bent quads are shaded as two triangles.
-  void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d, uint32_t material);
+  void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d,
+            uint32_t material);
   // Axis-aligned; `faces` says which sides are made (west is -x, north is -z).
   void box(const glm::dvec3& min, const glm::dvec3& max, uint32_t material, unsigned faces = all);
   // An upright prism of `sides` sides with its top; radii may differ.
-  void prism(const glm::dvec3& foot, double height, double foot_radius, double top_radius, int sides, uint32_t material);
+  void prism(const glm::dvec3& foot, double height, double foot_radius, double top_radius, int sides,
+             uint32_t material);
 
   // For smooth surfaces: a vertex of its own normal (made unit length), and triangles over such vertices.
   uint32_t vertex(const glm::dvec3& position, const glm::dvec3& normal);

@@ -32,16 +32,17 @@ struct Box {
   }
 };
 
-// Where the ray enters the box, or infinity if it misses it or enters beyond `limit`. The comparisons keep a NaN (0 * infinity: the ray
-// runs in a side's plane) from ruling the box out.
-double entry(const glm::dvec3& min, const glm::dvec3& max, const glm::dvec3& origin, const glm::dvec3& inverse,
-             double limit) {
+// Where the ray enters the box, or infinity if it misses it or enters beyond `limit`. The comparisons keep a
+// NaN (0 * infinity: the ray runs in a side's plane) from ruling the box out.
+double entry(const glm::dvec3& min, const glm::dvec3& max, const glm::dvec3& origin,
+             const glm::dvec3& inverse, double limit) {
   double begin = 0, end = limit;
   for (int axis = 0; axis < 3; ++axis) {
     double a = (min[axis] - origin[axis]) * inverse[axis];
     double b = (max[axis] - origin[axis]) * inverse[axis];
     if (a > b) std::swap(a, b);
-    // Rounding may move the ends by an ulp or two; a factor (which leaves infinities alone) gives more than that back.
+    // Rounding may move the ends by an ulp or two; a factor (which leaves infinities alone) gives more than
+    // that back.
     a *= a > 0 ? 1 - 1e-15 : 1 + 1e-15;
     b *= b > 0 ? 1 + 1e-15 : 1 - 1e-15;
     if (a > begin) begin = a;
@@ -107,7 +108,8 @@ void RayCaster::build(std::span<const glm::dvec3> centers) {
     auto split = begin;
     if (size[axis] > 0 && depth < kSurfaceAreaDepth) {
       auto bin_of = [&](uint32_t t) {
-        return std::min(static_cast<int>((centers[t][axis] - middle.min[axis]) / size[axis] * kBins), kBins - 1);
+        return std::min(static_cast<int>((centers[t][axis] - middle.min[axis]) / size[axis] * kBins),
+                        kBins - 1);
       };
       std::array<Box, kBins> boxes;
       std::array<uint32_t, kBins> counts{};
@@ -157,7 +159,8 @@ void RayCaster::build(std::span<const glm::dvec3> centers) {
   }
 }
 
-std::optional<RayHit> RayCaster::nearest(const glm::dvec3& origin, const glm::dvec3& direction, double limit) const {
+std::optional<RayHit> RayCaster::nearest(const glm::dvec3& origin, const glm::dvec3& direction,
+                                         double limit) const {
   if (nodes_.empty()) return std::nullopt;
   glm::dvec3 inverse = 1.0 / direction;
   std::optional<RayHit> best;

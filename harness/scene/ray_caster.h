@@ -1,7 +1,8 @@
 // Rays against a scene's triangles on the CPU, in double: for camera paths and for the tests of scenes.
 //
-// Both sides of a triangle stop a ray, alpha masks are ignored (a leaf card is solid), triangles without area are never hit.
-// Answers do not depend on the order of traversal: of equal distances the lowest triangle number wins.
+// Both sides of a triangle stop a ray, alpha masks are ignored (a leaf card is solid), triangles without area
+// are never hit. Answers do not depend on the order of traversal: of equal distances the lowest triangle
+// number wins.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +28,8 @@ class RayCaster {
   explicit RayCaster(const Scene& scene);
 
   // The nearest hit with 0 < distance < limit. `direction` needs no unit length, but may not be 0.
-  std::optional<RayHit> nearest(
-      const glm::dvec3& origin, const glm::dvec3& direction,
-      double limit = std::numeric_limits<double>::infinity()) const;
+  std::optional<RayHit> nearest(const glm::dvec3& origin, const glm::dvec3& direction,
+                                double limit = std::numeric_limits<double>::infinity()) const;
   // Is nothing between `from` and `to`?
   bool clear(const glm::dvec3& from, const glm::dvec3& to) const { return !nearest(from, to - from, 1.0); }
   // The distance to the nearest hit, or `limit` if there is none nearer; `direction` of unit length.

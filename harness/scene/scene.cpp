@@ -15,14 +15,17 @@ const CameraPath& Scene::path(const std::string& path_name) const {
     if (candidate.name == path_name) return candidate;
     known.push_back(candidate.name);
   }
-  if (known.empty()) throw UsageError(one_line(fmt::format("scene '{}': it has no camera path '{}'", name, path_name)));
-  throw UsageError(
-      one_line(fmt::format("scene '{}': it has no camera path '{}'{}", name, path_name, suggestion(path_name, known))));
+  if (known.empty())
+    throw UsageError(one_line(fmt::format("scene '{}': it has no camera path '{}'", name, path_name)));
+  throw UsageError(one_line(fmt::format("scene '{}': it has no camera path '{}'{}", name, path_name,
+                                        suggestion(path_name, known))));
 }
 
 std::vector<SceneInfo> procedural_scenes() {
-  return {{"canyon", "A valley with two forts, two tunnels, a bridge and rocks: 190 x 150 x 40 m, long and short views."},
-          {"plane", "Two triangles, 100 x 100 m: the number of lights per pixel has a closed form."}};
+  return {
+      {"canyon",
+       "A valley with two forts, two tunnels, a bridge and rocks: 190 x 150 x 40 m, long and short views."},
+      {"plane", "Two triangles, 100 x 100 m: the number of lights per pixel has a closed form."}};
 }
 
 Scene load_scene(const SceneSpec& spec) {
@@ -31,8 +34,8 @@ Scene load_scene(const SceneSpec& spec) {
   }
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(spec.offset[axis]) <= 1e9)) {
-      throw UsageError(
-          fmt::format("scene: offset {} is {}, expected a number within +-1e9 m", "xyz"[axis], spec.offset[axis]));
+      throw UsageError(fmt::format("scene: offset {} is {}, expected a number within +-1e9 m", "xyz"[axis],
+                                   spec.offset[axis]));
     }
   }
   if (!spec.gltf.empty()) return import_gltf(spec.gltf, spec.gltf_scene, spec.seed, spec.offset);

@@ -40,7 +40,8 @@ WalkGraph::WalkGraph(const RayCaster& rays, const std::vector<FloorPoint>& point
     }
     size_t wanted = std::min(kNeighbours, near.size());
     std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(wanted), near.end());
-    for (size_t n = 0; n < wanted; ++n) pairs.emplace_back(std::min(i, near[n].second), std::max(i, near[n].second));
+    for (size_t n = 0; n < wanted; ++n)
+      pairs.emplace_back(std::min(i, near[n].second), std::max(i, near[n].second));
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

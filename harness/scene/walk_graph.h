@@ -19,7 +19,8 @@ class WalkGraph {
 
   // The points of the largest part that hangs together, in ascending order.
   const std::vector<uint32_t>& largest_part() const { return largest_; }
-  // The length of the shortest way from `from` to every point, infinity where there is none; `previous` gets the way back.
+  // The length of the shortest way from `from` to every point, infinity where there is none; `previous` gets
+  // the way back.
   std::vector<double> distances(uint32_t from, std::vector<uint32_t>& previous) const;
   // The points of the shortest way, both ends included.
   std::vector<uint32_t> way(uint32_t from, uint32_t to) const;

@@ -26,8 +26,8 @@ void expect_at(const std::string& text, const std::string& place) {
 
 TEST(JsonText, ReadsWhatTheLibraryReads) {
   for (const char* text :
-       {"null", "true", "-0.5", "12", "18446744073709551615", "\"\\u00e9\\n\"", "[]", "{}", "[1, [2, {\"a\": [3]}], \"x\"]",
-        R"({"a": {"b": [1, {"c": null}, false]}, "d": 1e3})"}) {
+       {"null", "true", "-0.5", "12", "18446744073709551615", "\"\\u00e9\\n\"", "[]", "{}",
+        "[1, [2, {\"a\": [3]}], \"x\"]", R"({"a": {"b": [1, {"c": null}, false]}, "d": 1e3})"}) {
     EXPECT_EQ(parse_json_text(text, "f"), json::parse(text)) << text;
   }
 }
@@ -54,7 +54,8 @@ TEST(JsonText, SyntaxErrorsNameLineAndColumn) {
 }
 
 TEST(JsonText, MessagesAreOnePlainLine) {
-  for (const char* text : {"{\"a\": 1,}", "[1 2]", "[\"\n\"]", "[\"\xff\"]", "\"unfinished", "[1e999]", "\x01"}) {
+  for (const char* text :
+       {"{\"a\": 1,}", "[1 2]", "[\"\n\"]", "[\"\xff\"]", "\"unfinished", "[1e999]", "\x01"}) {
     std::string what = refusal(text);
     EXPECT_EQ(what.find("json.exception"), what.npos) << what;
     EXPECT_EQ(what.find('\n'), what.npos) << what;
@@ -62,7 +63,8 @@ TEST(JsonText, MessagesAreOnePlainLine) {
 }
 
 TEST(JsonText, AKeyTwiceIsRefusedWhereItIs) {
-  EXPECT_EQ(refusal(R"({"lights": {"count": 1, "seed": 2, "count": 1}})"), "f.json: $.lights.count: the key is there twice");
+  EXPECT_EQ(refusal(R"({"lights": {"count": 1, "seed": 2, "count": 1}})"),
+            "f.json: $.lights.count: the key is there twice");
   EXPECT_EQ(refusal(R"({"a": [0, {"b": 1, "b": 2}]})"), "f.json: $.a[1].b: the key is there twice");
   EXPECT_EQ(parse_json_text(R"({"a": {"a": 1}, "b": {"a": 2}})", "f").size(), 2u);
 }

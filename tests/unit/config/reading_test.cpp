@@ -38,7 +38,7 @@ TEST(ConfigReading, EmptyObjectIsTheDefaults) {
   Config config = parse("{}");
   EXPECT_EQ(config.name, "test");
   ASSERT_EQ(config.setups.size(), 1u);
-  const Setup& setup = config.setups[0];
+  const ml::Setup& setup = config.setups[0];
   EXPECT_EQ(setup.scene.procedural, "canyon");
   EXPECT_EQ(setup.scene_label, "canyon");
   EXPECT_EQ(setup.lights.count, 8192u);
@@ -74,7 +74,7 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
     "outputs": {"heatmaps": [2, 0], "images": [1], "trace": false},
     "effects": {"spots": "off", "specular": "auto", "alpha_mask": "off"}})");
   EXPECT_EQ(config.name, "every");
-  const Setup& setup = config.setups.at(0);
+  const ml::Setup& setup = config.setups.at(0);
   EXPECT_EQ(setup.scene.gltf, "/levels/a.glb");
   EXPECT_EQ(setup.scene.procedural, "");
   EXPECT_EQ(setup.scene.gltf_scene, 2);
@@ -129,7 +129,8 @@ TEST(ConfigReading, ParameterListsMakeOneEntryPerValue) {
     found.emplace_back(algorithms[i].parameters.integer("tile"), algorithms[i].parameters.integer("slices"));
   }
   std::sort(found.begin(), found.end());
-  EXPECT_EQ(found, (std::vector<std::pair<int64_t, int64_t>>{{16, 8}, {16, 16}, {24, 8}, {24, 16}, {32, 8}, {32, 16}}));
+  EXPECT_EQ(found, (std::vector<std::pair<int64_t, int64_t>>{
+                       {16, 8}, {16, 16}, {24, 8}, {24, 16}, {32, 8}, {32, 16}}));
   EXPECT_EQ(algorithms[6].name, "ideal");
 }
 
@@ -137,7 +138,7 @@ TEST(ConfigReading, SweepIsTheProductAndZipGoesSideBySide) {
   Config config = parse(R"({"sweep": {"lights.count": [1, 2, 3], "resolution": [[8, 4], [16, 8]]},
                             "zip": {"lights.seed": [5, 6], "scene": ["plane", "canyon"]}})");
   std::set<std::tuple<uint32_t, uint32_t, uint32_t, std::string>> points;
-  for (const Setup& setup : config.setups) {
+  for (const ml::Setup& setup : config.setups) {
     points.insert({setup.lights.count, setup.width, setup.lights.seed, setup.scene_label});
     EXPECT_EQ(setup.height * 2, setup.width);
     EXPECT_EQ(setup.scene_label, setup.lights.seed == 5 ? "plane" : "canyon");
@@ -151,7 +152,7 @@ TEST(ConfigReading, SweptParametersGoToEveryAlgorithmThatHasThem) {
   Config config = parse(R"({"algorithms": ["ideal", "clustered", {"name": "clustered", "slices": 4}],
                             "sweep": {"algorithms.tile": [16, 32], "algorithms.2.zmin": [1, 2]}})");
   ASSERT_EQ(config.setups.size(), 4u);
-  for (const Setup& setup : config.setups) {
+  for (const ml::Setup& setup : config.setups) {
     EXPECT_EQ(setup.algorithms[1].parameters.integer("tile"), setup.algorithms[2].parameters.integer("tile"));
     EXPECT_EQ(setup.algorithms[1].parameters.real("zmin"), 5);
     EXPECT_LE(setup.algorithms[2].parameters.real("zmin"), 2);
@@ -222,11 +223,12 @@ TEST(ConfigReading, NamesComeFromTheFile) {
 }
 
 TEST(ConfigOverrides, SetAnyKey) {
-  Config config = parse(R"({"algorithms": ["clustered", "ideal", {"name": "clustered", "slices": 4}]})",
-                        {"lights.count=5", "scene=plane", "resolution=[8, 9]", "algorithms.tile=32", "algorithms.2.zmin=1",
-                         "algorithms[0].slices=3", "lights={\"seed\": 2}", "name=other", "measure.mode=whole", "outputs.images=[1]",
-                         "camera.frames=2", "effects.spots=off"});
-  const Setup& setup = config.setups[0];
+  Config config =
+      parse(R"({"algorithms": ["clustered", "ideal", {"name": "clustered", "slices": 4}]})",
+            {"lights.count=5", "scene=plane", "resolution=[8, 9]", "algorithms.tile=32",
+             "algorithms.2.zmin=1", "algorithms[0].slices=3", "lights={\"seed\": 2}", "name=other",
+             "measure.mode=whole", "outputs.images=[1]", "camera.frames=2", "effects.spots=off"});
+  const ml::Setup& setup = config.setups[0];
   EXPECT_EQ(setup.lights.count, 5u);
   EXPECT_EQ(setup.lights.seed, 2u);
   EXPECT_EQ(setup.scene_label, "plane");
@@ -265,11 +267,13 @@ TEST(ConfigOverrides, ASetKeyIsNoLongerSwept) {
   EXPECT_EQ(parse(text, {"sweep={}"}).setups.size(), 1u);
   EXPECT_EQ(parse(text, {"sweep.lights.count=[4,5,6]"}).setups.size(), 9u);
   EXPECT_EQ(parse(text, {"zip.lights.count=[4,5,6]", "zip.scene.seed=[1,2,3]"}).setups.size(), 9u);
-  EXPECT_SAYS(refusal(R"({"sweep": {"scene": ["plane", "canyon"]}})", "--set", {"scene.seed=3"}), "sweeps 'scene'");
+  EXPECT_SAYS(refusal(R"({"sweep": {"scene": ["plane", "canyon"]}})", "--set", {"scene.seed=3"}),
+              "sweeps 'scene'");
 }
 
 TEST(ConfigOverrides, ErrorsNameTheOverride) {
-  EXPECT_SAYS(refusal("{}", "--set", {"lights.cuont=5"}), "$.lights.cuont: unknown key, did you mean 'count'?");
+  EXPECT_SAYS(refusal("{}", "--set", {"lights.cuont=5"}),
+              "$.lights.cuont: unknown key, did you mean 'count'?");
   EXPECT_SAYS(refusal("{}", "--set", {"light.count=5"}), "did you mean 'lights.count'?");
   EXPECT_SAYS(refusal("{}", "--set", {"count=5"}), "did you mean 'lights.count'?");
   EXPECT_SAYS(refusal("{}", "--set", {"lights.count=-5"}), "$.lights.count: expected an integer");

@@ -43,7 +43,7 @@ TEST(Trace, IsValidWithoutEventsAndTheSameEveryTime) {
   write_trace(events, "d", folder / "b.json");
   write_trace(events, "d", folder / "c.json");
   EXPECT_EQ(read_text_file(folder / "b.json"), read_text_file(folder / "c.json"));
-  EXPECT_NO_THROW(json::parse(read_text_file(folder / "b.json")));
+  EXPECT_TRUE(json::accept(read_text_file(folder / "b.json")));
 }
 
 CaseResult make_case(const std::string& algorithm, double shade) {

@@ -41,7 +41,8 @@ TEST(GltfAccessor, IntegerPositionsAsTheyAreAndNormalised) {
     int accessor = file.accessor(padded, c.type, "VEC3", c.normalized);
     file.json["accessors"][static_cast<size_t>(accessor)]["count"] = 3;
     file.primitive()["attributes"]["POSITION"] = accessor;
-    expect_triangle(file.load(), {double(low) * c.unit, 0, 0}, {0, 0, 0}, {double(high) * c.unit, 0, double(high) * c.unit});
+    expect_triangle(file.load(), {double(low) * c.unit, 0, 0}, {0, 0, 0},
+                    {double(high) * c.unit, 0, double(high) * c.unit});
   };
   check(int8_t{}, {5120, false, 1}, -100, 127);
   check(int8_t{}, {5120, true, 1.0 / 127}, -127, 127);
@@ -66,17 +67,22 @@ TEST(GltfAccessor, InterleavedWithStrideAndOffsets) {
   std::vector<float> data = {9, 9};
   std::vector<float> corners = {0, 0, 0, 0, 0, 4, 4, 0, 0};
   for (size_t v = 0; v < 3; ++v) {
-    data.insert(data.end(), corners.begin() + static_cast<ptrdiff_t>(3 * v), corners.begin() + static_cast<ptrdiff_t>(3 * v + 3));
+    data.insert(data.end(), corners.begin() + static_cast<ptrdiff_t>(3 * v),
+                corners.begin() + static_cast<ptrdiff_t>(3 * v + 3));
     data.insert(data.end(), {0, 1, 0, static_cast<float>(v), 0.5f});
   }
   int view = file.view(data);
   file.json["bufferViews"][static_cast<size_t>(view)]["byteStride"] = 32;
   auto add = [&](int offset, const char* type) {
-    file.json["accessors"].push_back(
-        {{"bufferView", view}, {"byteOffset", offset}, {"componentType", 5126}, {"count", 3}, {"type", type}});
+    file.json["accessors"].push_back({{"bufferView", view},
+                                      {"byteOffset", offset},
+                                      {"componentType", 5126},
+                                      {"count", 3},
+                                      {"type", type}});
     return file.json["accessors"].size() - 1;
   };
-  file.primitive()["attributes"] = {{"POSITION", add(8, "VEC3")}, {"NORMAL", add(20, "VEC3")}, {"TEXCOORD_0", add(32, "VEC2")}};
+  file.primitive()["attributes"] = {
+      {"POSITION", add(8, "VEC3")}, {"NORMAL", add(20, "VEC3")}, {"TEXCOORD_0", add(32, "VEC2")}};
   Scene scene = file.load();
   expect_triangle(scene, {0, 0, 0}, {0, 0, 4}, {4, 0, 0});
   for (size_t v = 0; v < 3; ++v) {
@@ -85,7 +91,8 @@ TEST(GltfAccessor, InterleavedWithStrideAndOffsets) {
   }
 }
 
-void add_sparse(GltfTestFile& file, Json& accessor, const std::vector<uint16_t>& indices, const std::vector<float>& values) {
+void add_sparse(GltfTestFile& file, Json& accessor, const std::vector<uint16_t>& indices,
+                const std::vector<float>& values) {
   int index_view = file.view(indices), value_view = file.view(values);
   accessor["sparse"] = {{"count", indices.size()},
                         {"indices", {{"bufferView", index_view}, {"componentType", 5123}}},
@@ -126,14 +133,20 @@ TEST(GltfAccessor, TextureCoordinatesOfEveryType) {
       for (size_t c = 0; c < row; ++c) data.push_back(c == 1 ? one : T(0));
     int view = file.view(data);
     file.json["bufferViews"][static_cast<size_t>(view)]["byteStride"] = row * sizeof(T);
-    file.json["accessors"].push_back(
-        {{"bufferView", view}, {"componentType", type}, {"count", 3}, {"type", "VEC2"}, {"normalized", normalized}});
+    file.json["accessors"].push_back({{"bufferView", view},
+                                      {"componentType", type},
+                                      {"count", 3},
+                                      {"type", "VEC2"},
+                                      {"normalized", normalized}});
     file.primitive()["attributes"]["TEXCOORD_0"] = file.json["accessors"].size() - 1;
-    for (const Vertex& vertex : file.load().vertices) EXPECT_EQ(vertex.uv, glm::vec2(0, double(one) * unit));
+    for (const Vertex& vertex : file.load().vertices) {
+      EXPECT_EQ(vertex.uv.x, 0.0f);
+      EXPECT_FLOAT_EQ(vertex.uv.y, static_cast<float>(double(one) * unit));
+    }
   };
   check(0.75f, 5126, false, 1);
-  check(uint8_t{51}, 5121, true, 0.2);
-  check(uint16_t{13107}, 5123, true, 0.2);
+  check(uint8_t{51}, 5121, true, 1.0 / 255);
+  check(uint16_t{13107}, 5123, true, 1.0 / 65535);
   check(int8_t{-127}, 5120, true, 1.0 / 127);
   check(int16_t{77}, 5122, false, 1);
 }

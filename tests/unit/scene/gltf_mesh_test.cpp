@@ -8,11 +8,13 @@ namespace {
 using glm::dvec3;
 
 dvec3 face_normal(const Scene& scene, size_t triangle) {
-  dvec3 a = corner_of(scene, triangle, 0), b = corner_of(scene, triangle, 1), c = corner_of(scene, triangle, 2);
+  dvec3 a = corner_of(scene, triangle, 0), b = corner_of(scene, triangle, 1),
+        c = corner_of(scene, triangle, 2);
   return glm::normalize(glm::cross(b - a, c - a));
 }
 
-// Positions of a 2 x 1 m quad in the plane y = 0 as a strip; as indices, `order` says which corner comes when.
+// Positions of a 2 x 1 m quad in the plane y = 0 as a strip; as indices, `order` says which corner comes
+// when.
 const std::vector<float> quad = {0, 0, 0, 0, 0, 1, 2, 0, 0, 2, 0, 1};
 
 Scene with_mode(int mode, const std::vector<uint32_t>& order) {
@@ -24,7 +26,8 @@ Scene with_mode(int mode, const std::vector<uint32_t>& order) {
 }
 
 TEST(GltfMesh, ListStripAndFanMeanTheSameSurface) {
-  for (const Scene& scene : {with_mode(4, {0, 1, 2, 2, 1, 3}), with_mode(5, {0, 1, 2, 3}), with_mode(6, {0, 1, 3, 2})}) {
+  for (const Scene& scene :
+       {with_mode(4, {0, 1, 2, 2, 1, 3}), with_mode(5, {0, 1, 2, 3}), with_mode(6, {0, 1, 3, 2})}) {
     ASSERT_EQ(scene.triangle_count(), 2u);
     for (size_t t = 0; t < 2; ++t) EXPECT_EQ(face_normal(scene, t), dvec3(0, 1, 0));
     double area = 0;
@@ -37,7 +40,8 @@ TEST(GltfMesh, ListStripAndFanMeanTheSameSurface) {
 
 TEST(GltfMesh, LongStripKeepsItsWinding) {
   std::vector<float> positions;
-  for (int i = 0; i < 9; ++i) positions.insert(positions.end(), {static_cast<float>(i / 2), 0, static_cast<float>(i % 2)});
+  for (int i = 0; i < 9; ++i)
+    positions.insert(positions.end(), {static_cast<float>(i / 2), 0, static_cast<float>(i % 2)});
   GltfTestFile file = triangle_file();
   file.mesh(positions);
   file.json["meshes"][1]["primitives"][0]["mode"] = 5;
@@ -90,7 +94,8 @@ TEST(GltfMesh, UnusableNormalsComeFromTheTriangles) {
 TEST(GltfMesh, DegenerateTrianglesStayAndHaveUnitNormals) {
   GltfTestFile file = triangle_file();
   file.mesh({1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 1, 1});
-  file.json["meshes"][1]["primitives"][0]["indices"] = file.accessor(std::vector<uint8_t>{0, 1, 2, 0, 1, 3}, 5121, "SCALAR");
+  file.json["meshes"][1]["primitives"][0]["indices"] =
+      file.accessor(std::vector<uint8_t>{0, 1, 2, 0, 1, 3}, 5121, "SCALAR");
   file.json["nodes"][0]["mesh"] = 1;
   Scene scene = file.load();
   EXPECT_EQ(scene.triangle_count(), 2u);
@@ -107,8 +112,10 @@ TEST(GltfMesh, NegativeScaleKeepsTheOutsideOutside) {
       file.json["nodes"][0]["scale"] = {scale.x, scale.y, scale.z};
       Scene scene = file.load();
       dvec3 outside(0, scale.y > 0 ? 1 : -1, 0);
-      EXPECT_LT(glm::length(face_normal(scene, 0) - outside), 1e-6) << scale.x << " " << scale.y << " " << scale.z;
-      for (const Vertex& vertex : scene.vertices) EXPECT_LT(glm::length(dvec3(vertex.normal) - outside), 1e-6);
+      EXPECT_LT(glm::length(face_normal(scene, 0) - outside), 1e-6)
+          << scale.x << " " << scale.y << " " << scale.z;
+      for (const Vertex& vertex : scene.vertices)
+        EXPECT_LT(glm::length(dvec3(vertex.normal) - outside), 1e-6);
     }
   }
 }
@@ -117,7 +124,8 @@ TEST(GltfMesh, NormalsStaySquareToStretchedSurfaces) {
   GltfTestFile file = triangle_file();
   float h = std::sqrt(0.5f);
   file.mesh({0, 0, 0, 0, 0, 1, 1, -1, 0});  // a slope of 45 degrees
-  file.json["meshes"][1]["primitives"][0]["attributes"]["NORMAL"] = file.floats({h, h, 0, h, h, 0, h, h, 0}, "VEC3");
+  file.json["meshes"][1]["primitives"][0]["attributes"]["NORMAL"] =
+      file.floats({h, h, 0, h, h, 0, h, h, 0}, "VEC3");
   file.json["nodes"][0] = {{"mesh", 1}, {"scale", {3, 1, 0.2}}, {"rotation", {0.5, 0.5, 0.5, 0.5}}};
   Scene scene = file.load();
   for (const Vertex& vertex : scene.vertices)
@@ -135,10 +143,10 @@ TEST(GltfMesh, PrimitivesOfOneMeshShareTheirVertices) {
 
 TEST(GltfMesh, DrawsCoverAllIndicesOncePerMaterial) {
   GltfTestFile file = triangle_file();
-  file.json["materials"] = {{{"name", "a"}}, {{"name", "b"}}};
+  file.json["materials"] = Json::array({{{"name", "a"}}, {{"name", "b"}}});
   Json first = file.primitive(), second = file.primitive();
   first["material"] = 1, second["material"] = 0;
-  file.json["meshes"][0]["primitives"] = {first, second, first};
+  file.json["meshes"][0]["primitives"] = Json::array({first, second, first});
   Scene scene = file.load();
   ASSERT_EQ(scene.draws.size(), 2u);
   EXPECT_EQ(scene.draws[0].material, 0u);
@@ -156,7 +164,8 @@ TEST(GltfMesh, OriginIsOffsetPlusWholeMetresNearTheMiddle) {
   EXPECT_EQ(far.origin, near.origin + dvec3(1e7, 0, -3));
   EXPECT_LE(glm::length(glm::dvec3(near.bounds.center())), std::sqrt(3.0) / 2);
   EXPECT_EQ(corner_of(near, 0, 0), dvec3(100.25, -7, 3));
-  for (size_t i = 0; i < near.vertices.size(); ++i) EXPECT_EQ(near.vertices[i].position, far.vertices[i].position);
+  for (size_t i = 0; i < near.vertices.size(); ++i)
+    EXPECT_EQ(near.vertices[i].position, far.vertices[i].position);
 }
 
 TEST(GltfMesh, FarNodesKeepTheirPrecision) {

@@ -3,7 +3,9 @@
 
 #include <cstring>
 #include <glm/glm.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,8 +30,10 @@ struct GltfTestFile {
   }
 
   template <typename T>
-  int accessor(const std::vector<T>& values, int component_type, const std::string& type, bool normalized = false) {
-    static const std::map<std::string, size_t> widths = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
+  int accessor(const std::vector<T>& values, int component_type, const std::string& type,
+               bool normalized = false) {
+    static const std::map<std::string, size_t> widths = {
+        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
     json["accessors"].push_back({{"bufferView", view(values)},
                                  {"componentType", component_type},
                                  {"count", values.size() / widths.at(type)},
@@ -37,13 +41,15 @@ struct GltfTestFile {
     if (normalized) json["accessors"].back()["normalized"] = true;
     return static_cast<int>(json["accessors"].size()) - 1;
   }
-  int floats(const std::vector<float>& values, const std::string& type) { return accessor(values, 5126, type); }
+  int floats(const std::vector<float>& values, const std::string& type) {
+    return accessor(values, 5126, type);
+  }
 
   // A mesh of one primitive; without indices where there are none.
   int mesh(const std::vector<float>& positions, const std::vector<uint32_t>& indices = {}) {
     Json primitive = {{"attributes", {{"POSITION", floats(positions, "VEC3")}}}};
     if (!indices.empty()) primitive["indices"] = accessor(indices, 5125, "SCALAR");
-    json["meshes"].push_back({{"primitives", {primitive}}});
+    json["meshes"].push_back({{"primitives", Json::array({primitive})}});
     return static_cast<int>(json["meshes"].size()) - 1;
   }
 
@@ -52,7 +58,8 @@ struct GltfTestFile {
   // "buffers" follows the binary chunk unless a test has written its own.
   std::string glb() const {
     Json description = json;
-    if (!binary.empty() && !description.contains("buffers")) description["buffers"] = {{{"byteLength", binary.size()}}};
+    if (!binary.empty() && !description.contains("buffers"))
+      description["buffers"] = Json::array({{{"byteLength", binary.size()}}});
     return glb_of(description.dump(), binary);
   }
 
@@ -74,9 +81,12 @@ struct GltfTestFile {
     return file;
   }
 
-  Scene load(int scene = -1, const glm::dvec3& offset = glm::dvec3(0)) const { return load_bytes(glb(), scene, offset); }
+  Scene load(int scene = -1, const glm::dvec3& offset = glm::dvec3(0)) const {
+    return load_bytes(glb(), scene, offset);
+  }
 
-  static Scene load_bytes(const std::string& bytes, int scene = -1, const glm::dvec3& offset = glm::dvec3(0)) {
+  static Scene load_bytes(const std::string& bytes, int scene = -1,
+                          const glm::dvec3& offset = glm::dvec3(0)) {
     return import_gltf_memory(std::as_bytes(std::span(bytes)), "test.glb", scene, 1, offset);
   }
 };
@@ -85,9 +95,10 @@ struct GltfTestFile {
 inline GltfTestFile triangle_file() {
   GltfTestFile file;
   file.mesh({0, 0, 0, 0, 0, 4, 4, 0, 0}, {0, 1, 2});
-  file.json["nodes"] = {{{"mesh", 0}}, {{"camera", 0}, {"translation", {0, 5, 0}}}};
-  file.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
-  file.json["scenes"] = {{{"nodes", {0, 1}}}};
+  file.json["nodes"] = Json::array({{{"mesh", 0}}, {{"camera", 0}, {"translation", {0, 5, 0}}}});
+  file.json["cameras"] =
+      Json::array({{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}});
+  file.json["scenes"] = Json::array({{{"nodes", {0, 1}}}});
   return file;
 }
 

@@ -1,0 +1,59 @@
+#include "harness/bench/counting.h"
+
+namespace ml {
+
+PixelCounts read_counts(DeviceFrame& frame) {
+  const CounterTargets& targets = frame.counters();
+  return {frame.read_words(targets.listed), frame.read_words(targets.tested), frame.read_words(targets.contributing),
+          frame.read_words(targets.nodes),  frame.read_words(targets.hash),   frame.read_words(targets.traversal)};
+}
+
+std::vector<uint8_t> lit_pixels(DeviceFrame& frame) {
+  std::vector<float> depth = frame.read_floats(frame.targets().depth);
+  std::vector<uint8_t> lit(depth.size());
+  for (size_t i = 0; i < depth.size(); ++i) lit[i] = depth[i] > 0;
+  return lit;
+}
+
+FrameCounters summarize(const PixelCounts& counts, const ContributingLights& truth, const std::vector<uint8_t>& lit,
+                        const PrepareCounters& prepare) {
+  FrameCounters frame;
+  frame.prepare = prepare;
+  uint64_t listed = 0, tested = 0, contributing = 0, nodes = 0;
+  for (size_t i = 0; i < lit.size(); ++i) {
+    frame.lit_pixels += lit[i];
+    listed += counts.listed[i];
+    tested += counts.tested[i];
+    contributing += counts.contributing[i];
+    nodes += counts.nodes[i];
+    if (truth.count[i] > counts.contributing[i]) frame.lost += truth.count[i] - counts.contributing[i];
+    if (truth.count[i] != counts.contributing[i] || truth.hash[i] != counts.hash[i]) {
+      ++frame.mismatched_pixels;
+      // As many as there should be, but not the same ones: at least one was lost and another is too much.
+      if (truth.count[i] > 0 && truth.hash[i] != counts.hash[i] && truth.count[i] == counts.contributing[i]) ++frame.lost;
+    }
+  }
+  double pixels = frame.lit_pixels ? static_cast<double>(frame.lit_pixels) : 1;
+  frame.listed = static_cast<double>(listed) / pixels;
+  frame.tested = static_cast<double>(tested) / pixels;
+  frame.contributing = static_cast<double>(contributing) / pixels;
+  frame.nodes = static_cast<double>(nodes) / pixels;
+  return frame;
+}
+
+std::map<std::string, double> FrameCounters::named() const {
+  auto exact = [](uint64_t value) { return static_cast<double>(value); };
+  return {{"in_frustum", exact(prepare.in_frustum)},
+          {"listed", listed},
+          {"tested", tested},
+          {"contributing", contributing},
+          {"nodes", nodes},
+          {"lost", exact(lost)},
+          {"mismatched_pixels", exact(mismatched_pixels)},
+          {"lit_pixels", exact(lit_pixels)},
+          {"list_bytes", exact(prepare.list_bytes)},
+          {"overflow_tiles", exact(prepare.overflow_tiles)},
+          {"overflow_lights", exact(prepare.overflow_lights)}};
+}
+
+}  // namespace ml

@@ -1,0 +1,47 @@
+#include "harness/bench/oracle_input.h"
+
+namespace ml {
+namespace {
+
+glm::dvec3 three(const std::vector<float>& data, size_t pixel) {
+  return {data[4 * pixel], data[4 * pixel + 1], data[4 * pixel + 2]};
+}
+
+}  // namespace
+
+OracleFrame::OracleFrame(DeviceFrame& frame, const FrameInput& input)
+    : position_(frame.read_aov(DeviceFrame::Aov::position)),
+      normal_(frame.read_aov(DeviceFrame::Aov::normal)),
+      albedo_(frame.read_aov(DeviceFrame::Aov::albedo)),
+      material_(frame.read_aov(DeviceFrame::Aov::material)) {
+  for (size_t i = 0; i < input.lights.count(); ++i) {
+    const gpu_data::LightCore& core = input.lights.core[i];
+    OracleLight light;
+    light.position = core.position;
+    light.radius = static_cast<double>(core.radius);
+    light.intensity = core.intensity;
+    light.spot = frame.effects().spots && core.id_shape >> 24 == ML_SHAPE_SPOT;
+    if (light.spot) {
+      const gpu_data::LightExtra& extra = input.lights.extra[i];
+      light.direction = extra.direction;
+      light.cone_scale = static_cast<double>(extra.cone_scale);
+      light.cone_offset = static_cast<double>(extra.cone_offset);
+      light.cos_outer = static_cast<double>(extra.cos_outer);
+    }
+    lights_.push_back(light);
+  }
+  if (input.view.orthographic) view_direction_ = -glm::dvec3(input.view.forward);
+}
+
+SurfacePoint OracleFrame::point(size_t pixel) const {
+  SurfacePoint point;
+  point.position = three(position_, pixel);
+  point.normal = three(normal_, pixel);
+  point.albedo = three(albedo_, pixel);
+  point.roughness = static_cast<double>(material_[4 * pixel]);
+  point.metallic = static_cast<double>(material_[4 * pixel + 1]);
+  point.view = view_direction_;
+  return point;
+}
+
+}  // namespace ml

@@ -1,0 +1,154 @@
+#include "harness/bench/runner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "harness/base/error.h"
+#include "harness/base/file.h"
+#include "harness/bench/context.h"
+#include "harness/bench/interruption.h"
+#include "harness/bench/progress.h"
+#include "harness/bench/setup_run.h"
+
+namespace ml {
+namespace {
+
+// Cases by setup, in order.
+std::map<size_t, std::vector<Case>> by_setup(const std::vector<Case>& cases) {
+  std::map<size_t, std::vector<Case>> groups;
+  for (const Case& item : cases) groups[item.setup].push_back(item);
+  return groups;
+}
+
+// The complete cases of an earlier run of the same configuration.
+std::vector<nlohmann::json> earlier_cases(const Config& config, const RunOptions& options) {
+  std::filesystem::path file = options.out / "result.json";
+  if (!options.resume || !std::filesystem::exists(file)) return {};
+  nlohmann::json earlier = read_result(file);
+  if (earlier["config"] != config.resolved)
+    throw UsageError(file.string() + ": is the result of another configuration; choose another folder or leave out --resume");
+  std::vector<nlohmann::json> complete;
+  for (const nlohmann::json& item : earlier["cases"])
+    if (item["repeats_done"] == config.measure.repeats) complete.push_back(item);
+  return complete;
+}
+
+// Writes the result after each step and throws when the validation layer has spoken.
+class Recorder {
+ public:
+  Recorder(Result& result, const RunOptions& options, gpu::Device& device, RunLog& log)
+      : result_(result), options_(options), device_(device), log_(log) {}
+
+  void write(const std::vector<CaseResult>& finished, const std::vector<CaseResult>& current, bool complete) {
+    auto span = log_.span("writing");
+    for (const std::string& message : device_.validation_messages())
+      throw std::runtime_error("validation layer: " + one_line(message));
+    result_.cases = finished;
+    result_.cases.insert(result_.cases.end(), current.begin(), current.end());
+    result_.complete = complete;
+    result_.harness = log_.summary();
+    result_.harness["peak_memory_bytes"] = peak_memory_bytes();
+    write_result(result_, options_.out / "result.json");
+  }
+
+ private:
+  Result& result_;
+  const RunOptions& options_;
+  gpu::Device& device_;
+  RunLog& log_;
+};
+
+uint64_t samples_of(const Config& config, const std::vector<Case>& cases) {
+  uint64_t laps = 1 + config.measure.warmup + config.measure.repeats, samples = 0;
+  for (const Case& item : cases) samples += config.setups[item.setup].camera.frames * laps;
+  return samples;
+}
+
+}  // namespace
+
+std::vector<Case> selected_cases(const Config& config, const RunOptions& options) {
+  std::vector<Case> cases = expand_cases(config);
+  std::erase_if(cases, [&](const Case& item) { return item.setup % options.shards != options.shard; });
+  try {
+    std::regex filter(options.filter);
+    std::erase_if(cases, [&](const Case& item) { return !std::regex_search(item.id, filter); });
+  } catch (const std::regex_error& error) {
+    throw UsageError("--filter '" + options.filter + "': not a regular expression: " + error.what());
+  }
+  if (cases.empty()) throw UsageError("no case is left by --filter '" + options.filter + "' and --shard");
+  return cases;
+}
+
+Result run_config(const Config& config, const RunOptions& options) {
+  std::vector<Case> cases = selected_cases(config, options);
+  make_output_directory(options.out);
+  Result result;
+  result.earlier_cases = earlier_cases(config, options);
+  std::erase_if(cases, [&](const Case& item) {
+    return std::any_of(result.earlier_cases.begin(), result.earlier_cases.end(),
+                       [&](const nlohmann::json& earlier) { return earlier["id"] == item.id; });
+  });
+
+  RunLog log(config.outputs.trace);
+  std::optional<gpu::Device> device;
+  {
+    auto span = log.span("device");
+    device.emplace(gpu::DeviceOptions{options.device, options.validation});
+    result.context = run_context(*device, calibrate(*device));
+  }
+  result.config = config.resolved;
+  if (!options.quiet)
+    fmt::print(stderr, "device: {} ({}, {})\n", device->info().name, device->info().type, device->info().driver);
+  const nlohmann::json& calibration = result.context["calibration"];
+  Recorder recorder(result, options, *device, log);
+  Progress progress(config.name, samples_of(config, cases), options.quiet);
+  auto step = [&](uint64_t samples, const std::string& what) { progress.advance(samples, what); };
+
+  std::vector<CaseResult> finished;
+  std::shared_ptr<const Scene> scene;
+  SceneSpec scene_spec;
+  for (const auto& [index, group] : by_setup(cases)) {
+    const Setup& setup = config.setups[index];
+    if (scene && !same_scene(scene_spec, setup.scene)) scene = nullptr;
+    SetupRun run(*device, config, group, scene, log);
+    scene = run.workload().scene();
+    scene_spec = setup.scene;
+    if (!options.quiet)
+      for (const std::string& note : scene->notes) fmt::print(stderr, "{}: {}\n", setup.scene_label, note);
+    auto settle = [&] {
+      for (CaseResult& item : run.results())
+        if (!calibration["agrees"].get<bool>()) {
+          item.timing_suspect = true;
+          item.timing_note = "calibration: " + calibration["note"].get<std::string>();
+        }
+    };
+    try {
+      run.counting_lap(step);
+      recorder.write(finished, run.results(), false);
+      for (uint32_t lap = 0; lap < config.measure.warmup + config.measure.repeats; ++lap) {
+        run.timed_lap(lap, step);
+        settle();
+        if (lap >= config.measure.warmup) recorder.write(finished, run.results(), false);
+      }
+      run.pictures(options.out, [](uint64_t, const std::string&) {});
+    } catch (const Interrupted&) {
+      settle();
+      recorder.write(finished, run.results(), false);
+      throw;
+    }
+    finished.insert(finished.end(), run.results().begin(), run.results().end());
+    recorder.write(finished, {}, false);
+  }
+  if (config.outputs.trace) {
+    auto span = log.span("writing");
+    write_trace(log.events(), fmt::format("{} ({})", device->info().name, device->info().type), options.out / "trace.json");
+  }
+  recorder.write(finished, {}, true);
+  return result;
+}
+
+}  // namespace ml

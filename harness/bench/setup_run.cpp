@@ -1,0 +1,191 @@
+#include "harness/bench/setup_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "harness/base/error.h"
+#include "harness/bench/calibration.h"
+#include "harness/bench/case_pictures.h"
+#include "harness/bench/interruption.h"
+
+namespace ml {
+namespace {
+
+const Setup& setup_of(const Config& config, const std::vector<Case>& cases) {
+  return config.setups[cases.front().setup];
+}
+
+CaseResult empty_result(const Config& config, const Case& item, Workload& workload) {
+  const Setup& setup = config.setups[item.setup];
+  const AlgorithmSpec& algorithm = setup.algorithms[item.algorithm];
+  CaseResult result;
+  result.id = item.id;
+  result.algorithm = algorithm.name;
+  result.parameters = parameters_json(algorithm.parameters);
+  result.scene = setup.scene_label;
+  result.lights = static_cast<uint32_t>(workload.lights().base().size());
+  result.width = setup.width;
+  result.height = setup.height;
+  result.effects = workload.effects().names();
+  for (uint32_t i = 0; i < setup.camera.frames; ++i) result.frames.push_back(i);
+  result.cpu_ms = result.gpu_ms = SampleTable(config.measure.repeats, setup.camera.frames);
+  for (const auto& [reason, count] : workload.lights().rejected()) result.rejected_lights[reason] = count;
+  return result;
+}
+
+}  // namespace
+
+nlohmann::json parameters_json(const Parameters& parameters) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const auto& [name, value] : parameters.values()) std::visit([&](const auto& v) { json[name] = v; }, value);
+  return json;
+}
+
+SetupRun::SetupRun(gpu::Device& device, const Config& config, const std::vector<Case>& cases, std::shared_ptr<const Scene> scene,
+                   RunLog& log)
+    : device_(device),
+      config_(config),
+      cases_(cases),
+      log_(log),
+      workload_([&] {
+        auto span = log.span("scene");
+        return Workload(setup_of(config, cases), config.measure.threads, std::move(scene));
+      }()),
+      frame_([&] {
+        auto span = log.span("programs");
+        return DeviceFrame(device, *workload_.scene(), workload_.effects(), workload_.frames().width(), workload_.frames().height());
+      }()) {
+  auto span = log_.span("programs");
+  for (const Case& item : cases_) {
+    const AlgorithmSpec& spec = setup_of(config_, cases_).algorithms[item.algorithm];
+    const AlgorithmEntry& entry = find_algorithm(spec.name, item.id);
+    algorithms_.push_back(std::make_unique<ShadedAlgorithm>(device_, entry, spec.parameters, workload_.effects()));
+    wants_lists_ |= entry.info.needs_contributing_lists;
+    results_.push_back(empty_result(config_, item, workload_));
+  }
+  contradictions_.assign(cases_.size(), 0);
+}
+
+void SetupRun::load(uint32_t index, bool lists) {
+  stop_if_interrupted();
+  {
+    auto span = log_.span("lights");
+    input_ = &workload_.frames().at(index);
+  }
+  {
+    auto span = log_.span("g-buffer");
+    frame_.load(*input_);
+  }
+  if (lists) {
+    auto span = log_.span("contributing lights");
+    frame_.find_contributing(*input_, wants_lists_);
+  }
+}
+
+void SetupRun::counting_lap(const Step& done) {
+  for (uint32_t index = 0; index < workload_.frames().frames(); ++index) {
+    load(index, true);
+    std::vector<uint8_t> lit;
+    {
+      auto span = log_.span("counting");
+      lit = lit_pixels(frame_);
+    }
+    for (size_t i = 0; i < cases_.size(); ++i) {
+      auto span = log_.span("counting");
+      spans_.clear();
+      algorithms_[i]->prepare(*input_, spans_);
+      algorithms_[i]->count(frame_, *input_);
+      FrameCounters counters = summarize(read_counts(frame_), frame_.contributing(), lit, algorithms_[i]->counters());
+      for (const auto& [name, value] : counters.named()) results_[i].counters[name].push_back(value);
+      done(1, "counting " + cases_[i].id);
+    }
+  }
+  for (size_t i = 0; i < cases_.size(); ++i)
+    results_[i].memory_bytes = {{"lists", algorithms_[i]->upload_bytes()},
+                                {"lights", frame_.light_bytes()},
+                                {"targets", frame_.target_bytes()}};
+}
+
+void SetupRun::timed_lap(uint32_t lap, const Step& done) {
+  const bool measured = lap >= config_.measure.warmup;
+  const uint32_t repeat = measured ? lap - config_.measure.warmup : 0;
+  const gpu::Timing timing = config_.measure.mode == TimingMode::stages ? gpu::Timing::stages : gpu::Timing::whole;
+  const auto count = static_cast<uint32_t>(cases_.size());
+  for (uint32_t index = 0; index < workload_.frames().frames(); ++index) {
+    load(index, wants_lists_);
+    for (uint32_t i : interleaved_order(count, config_.measure.seed, lap, index)) {
+      ShadedAlgorithm& algorithm = *algorithms_[i];
+      spans_.clear();
+      auto begin = Clock::now();
+      algorithm.prepare(*input_, spans_);
+      auto prepared = Clock::now();
+      gpu::SubmissionTimes times = algorithm.shade(frame_, *input_, timing);
+      double prepare_ms = milliseconds_between(begin, prepared), shade_ms = milliseconds_between(prepared, Clock::now());
+      log_.add("prepare", prepare_ms);
+      log_.add("shade", shade_ms);
+      done(1, (measured ? "timing " : "warming up ") + cases_[i].id);
+      if (!measured) continue;
+
+      CaseResult& result = results_[i];
+      std::vector<std::pair<std::string, double>> stages;
+      for (const std::string& name : algorithm.info().cpu_stages) {
+        auto found = spans_.sums().find(name);
+        double ms = found == spans_.sums().end() ? 0 : found->second;
+        result.cpu_ms.set(name, repeat, index, ms);
+        stages.emplace_back(name, ms);
+      }
+      result.cpu_ms.set("total", repeat, index, prepare_ms);
+      for (const auto& [name, ms] : times.spans) result.gpu_ms.set(name, repeat, index, ms);
+      result.gpu_ms.set("total", repeat, index, times.whole);
+      if (std::string why = timing_contradiction(times, timing); !why.empty()) {
+        ++contradictions_[i];
+        if (result.timing_note.empty()) result.timing_note = why;
+      }
+      std::map<std::string, std::string> arguments{
+          {"case", cases_[i].id}, {"frame", std::to_string(index)}, {"repeat", std::to_string(repeat)}};
+      log_.trace("cpu", begin, stages, arguments);
+      log_.trace("gpu", prepared, times.spans, arguments);
+    }
+  }
+  if (!measured) return;
+  // One sample in twenty may be hit by the machine's noise; more than that is a clock that cannot be believed.
+  for (size_t i = 0; i < cases_.size(); ++i) {
+    uint32_t samples = (repeat + 1) * workload_.frames().frames();
+    results_[i].timing_suspect = contradictions_[i] * 20 > samples;
+    results_[i].repeats_done = repeat + 1;
+  }
+}
+
+void SetupRun::pictures(const std::filesystem::path& folder, const Step& done) {
+  std::vector<uint32_t> wanted = config_.outputs.heatmaps;
+  wanted.insert(wanted.end(), config_.outputs.images.begin(), config_.outputs.images.end());
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  auto has = [](const std::vector<uint32_t>& list, uint32_t frame) { return std::find(list.begin(), list.end(), frame) != list.end(); };
+  for (uint32_t index : wanted) {
+    load(index, true);
+    auto span = log_.span("pictures");
+    std::vector<uint8_t> lit = lit_pixels(frame_);
+    for (size_t i = 0; i < cases_.size(); ++i) {
+      stop_if_interrupted();
+      spans_.clear();
+      algorithms_[i]->prepare(*input_, spans_);
+      algorithms_[i]->count(frame_, *input_);
+      const std::string stem = fmt::format("{}.frame{}", cases_[i].id, index);
+      if (has(config_.outputs.images, index)) {
+        std::vector<std::string> files = write_image(frame_, folder, "images/" + stem);
+        results_[i].images.insert(results_[i].images.end(), files.begin(), files.end());
+      }
+      if (has(config_.outputs.heatmaps, index)) {
+        uint32_t tile = results_[i].parameters.contains("tile") ? results_[i].parameters["tile"].get<uint32_t>() : 16;
+        std::vector<std::string> files = write_heat_maps(read_counts(frame_), lit, frame_.targets().width(),
+                                                         frame_.targets().height(), tile, folder, "heatmaps/" + stem);
+        results_[i].heatmaps.insert(results_[i].heatmaps.end(), files.begin(), files.end());
+      }
+      done(1, "pictures of " + cases_[i].id);
+    }
+  }
+}
+
+}  // namespace ml

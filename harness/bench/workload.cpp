@@ -1,0 +1,40 @@
+#include "harness/bench/workload.h"
+
+#include <algorithm>
+
+namespace ml {
+namespace {
+
+// Keyframes are in the file's own world; the path is relative to the scene's origin.
+CameraPath path_of(const CameraSpec& spec, const Scene& scene) {
+  if (spec.keyframes.empty()) return scene.path(spec.path);
+  CameraPath path;
+  path.name = "keyframes";
+  path.keys = spec.keyframes;
+  for (CameraKey& key : path.keys) {
+    key.position -= scene.origin;
+    key.target -= scene.origin;
+  }
+  return path;
+}
+
+}  // namespace
+
+bool same_scene(const SceneSpec& a, const SceneSpec& b) {
+  return a.procedural == b.procedural && a.gltf == b.gltf && a.gltf_scene == b.gltf_scene && a.seed == b.seed && a.offset == b.offset;
+}
+
+Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const Scene> scene)
+    : scene_(scene ? std::move(scene) : std::make_shared<const Scene>(load_scene(setup.scene))),
+      lights_(std::make_unique<LightSet>(setup.lights, *scene_)),
+      path_(path_of(setup.camera, *scene_)),
+      threads_(threads) {
+  bool spots = std::any_of(lights_->base().begin(), lights_->base().end(),
+                           [](const Light& light) { return light.shape == LightShape::spot; });
+  effects_.spots = spots && setup.effects.spots;
+  effects_.specular = setup.effects.specular;
+  effects_.alpha_mask = setup.effects.alpha_mask && Level::has_masked_material(*scene_);
+  frames_ = std::make_unique<FrameSequence>(*scene_, *lights_, path_, setup.camera.frames, setup.width, setup.height, threads_);
+}
+
+}  // namespace ml

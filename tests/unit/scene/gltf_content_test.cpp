@@ -1,0 +1,351 @@
+// Materials, textures, lights, cameras and external files.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "gltf_test_file.h"
+#include "harness/base/file.h"
+
+namespace ml {
+namespace {
+
+using glm::dvec3;
+namespace fs = std::filesystem;
+
+// A 2 x 1 PNG: red, and green with alpha 128.
+const std::vector<uint8_t> tiny_png = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44,
+    0x52, 0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x06, 0x00, 0x00, 0x00, 0xf4,
+    0x22, 0x7f, 0x8a, 0x00, 0x00, 0x00, 0x0f, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0xf8,
+    0xcf, 0xc0, 0xf0, 0x1f, 0x08, 0x1b, 0x00, 0x10, 0x79, 0x03, 0x7e, 0x7d, 0x63, 0xce, 0xd7,
+    0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+std::string base64(const void* data, size_t size) {
+  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto* bytes = static_cast<const uint8_t*>(data);
+  std::string text;
+  for (size_t i = 0; i < size; i += 3) {
+    uint32_t bits = 0;
+    for (size_t k = 0; k < 3; ++k) bits = (bits << 8) | (i + k < size ? bytes[i + k] : 0);
+    for (size_t k = 0; k < 4; ++k) text += i + k <= size ? digits[(bits >> (18 - 6 * k)) & 63] : '=';
+  }
+  return text;
+}
+
+GltfTestFile textured_file() {
+  GltfTestFile file = triangle_file();
+  file.json["materials"] = Json::array({{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}});
+  file.json["textures"] = Json::array({{{"source", 0}}});
+  file.json["images"] =
+      Json::array({{{"bufferView", file.view(tiny_png)}, {"mimeType", "image/png"}, {"name", "flag"}}});
+  file.primitive()["material"] = 0;
+  return file;
+}
+
+TEST(GltfMaterial, FactorsAndModes) {
+  GltfTestFile file = triangle_file();
+  file.json["materials"] = Json::array(
+      {{{"name", "a"},
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor", {0.5, 0.25, 0.125, 0.75}}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.25}}},
+        {"alphaMode", "MASK"},
+        {"alphaCutoff", 0.75},
+        {"doubleSided", true}},
+       {{"name", "b"}},
+       {{"name", "c"}, {"alphaMode", "BLEND"}, {"alphaCutoff", 0.1}}});
+  file.primitive()["material"] = 0;
+  Scene scene = file.load();
+  ASSERT_EQ(scene.materials.size(), 3u);
+  const Material &a = scene.materials[0], &b = scene.materials[1], &c = scene.materials[2];
+  EXPECT_EQ(a.base_color, glm::vec4(0.5f, 0.25f, 0.125f, 0.75f));
+  EXPECT_EQ(a.metallic, 0.5f);
+  EXPECT_EQ(a.roughness, 0.25f);
+  EXPECT_EQ(a.alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(a.alpha_cutoff, 0.75f);
+  EXPECT_TRUE(a.double_sided);
+  // glTF's defaults, which are not those of Material.
+  EXPECT_EQ(b.base_color, glm::vec4(1));
+  EXPECT_EQ(b.metallic, 1.0f);
+  EXPECT_EQ(b.roughness, 1.0f);
+  EXPECT_EQ(b.alpha_mode, AlphaMode::opaque);
+  EXPECT_FALSE(b.double_sided);
+  EXPECT_EQ(c.alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(c.alpha_cutoff, 0.5f);
+  EXPECT_EQ(scene.notes,
+            std::vector<std::string>{"1 materials blend, and are drawn as masks with cutoff 0.5"});
+}
+
+TEST(GltfMaterial, PrimitivesWithoutMaterialGetThePlainOne) {
+  Scene scene = triangle_file().load();
+  ASSERT_EQ(scene.materials.size(), 1u);
+  EXPECT_EQ(scene.materials[0].metallic, 0.0f);
+  EXPECT_EQ(scene.draws[0].material, 0u);
+  EXPECT_EQ(scene.notes.size(), 1u);
+}
+
+TEST(GltfMaterial, TexturesAreDecodedToSrgbBytes) {
+  GltfTestFile inside = textured_file(), data_uri = textured_file();
+  data_uri.json["images"][0] = {{"uri", "data:image/png;base64," + base64(tiny_png.data(), tiny_png.size())}};
+  for (const Scene& scene : {inside.load(), data_uri.load()}) {
+    ASSERT_EQ(scene.textures.size(), 1u);
+    EXPECT_EQ(scene.textures[0].width, 2u);
+    EXPECT_EQ(scene.textures[0].height, 1u);
+    EXPECT_EQ(scene.textures[0].rgba, (std::vector<uint8_t>{255, 0, 0, 255, 0, 255, 0, 128}));
+    EXPECT_EQ(scene.materials[0].base_color_texture, 0);
+  }
+}
+
+TEST(GltfMaterial, OneImageIsDecodedOnce) {
+  GltfTestFile file = textured_file();
+  file.json["textures"].push_back({{"source", 0}});
+  file.json["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
+  Scene scene = file.load();
+  EXPECT_EQ(scene.textures.size(), 1u);
+  EXPECT_EQ(scene.materials[1].base_color_texture, 0);
+}
+
+TEST(GltfMaterial, TextureTransformMovesCoordinates) {
+  GltfTestFile file = textured_file();
+  file.primitive()["attributes"]["TEXCOORD_1"] = file.floats({1, 0, 0, 1, 0.5f, 0.5f}, "VEC2");
+  file.json["extensionsRequired"] = {"KHR_texture_transform"};
+  // Of a quarter turn and a stretch by (2, 1): (u, v) becomes (v + 10, 20 - 2 u).
+  file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]
+           ["KHR_texture_transform"] = {
+      {"offset", {10, 20}}, {"rotation", 1.5707963267948966}, {"scale", {2, 1}}, {"texCoord", 1}};
+  Scene scene = file.load();
+  const glm::vec2 expected[] = {{10, 18}, {11, 20}, {10.5f, 19}};
+  for (size_t i = 0; i < 3; ++i) EXPECT_LT(glm::length(scene.vertices[i].uv - expected[i]), 1e-5f) << i;
+}
+
+GltfTestFile lit_file(const Json& light, const Json& node) {
+  GltfTestFile file = triangle_file();
+  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({light});
+  Json placed = node;
+  placed["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
+  file.json["nodes"].push_back(placed);
+  return file;
+}
+
+TEST(GltfLight, PointWithRange) {
+  Scene scene = lit_file({{"type", "point"}, {"color", {1, 0.5, 0}}, {"intensity", 8}, {"range", 3}},
+                         {{"translation", {1, 2, 3}}, {"scale", {5, 5, 5}}})
+                    .load();
+  ASSERT_EQ(scene.lights.size(), 1u);
+  const Light& light = scene.lights[0];
+  EXPECT_EQ(light.shape, LightShape::omni);
+  EXPECT_EQ(light.position + scene.origin, dvec3(1, 2, 3));
+  EXPECT_EQ(light.intensity, glm::vec3(8, 4, 0));
+  EXPECT_EQ(light.radius, 3.0f);  // a node's scale leaves the range alone
+}
+
+TEST(GltfLight, SpotPointsAlongItsNode) {
+  double h = std::sqrt(0.5);
+  Scene scene =
+      lit_file(
+          {{"type", "spot"}, {"range", 9}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
+          {{"rotation", {-h, 0, 0, h}}})
+          .load();  // -z turned down
+  const Light& light = scene.lights.at(0);
+  EXPECT_EQ(light.shape, LightShape::spot);
+  EXPECT_LT(glm::length(light.direction - glm::vec3(0, -1, 0)), 1e-6f);
+  EXPECT_EQ(light.inner_angle, 0.25f);
+  EXPECT_EQ(light.outer_angle, 0.5f);
+  Scene defaults =
+      lit_file({{"type", "spot"}, {"range", 9}, {"spot", Json::object()}}, Json::object()).load();
+  EXPECT_EQ(defaults.lights[0].inner_angle, 0.0f);
+  EXPECT_FLOAT_EQ(defaults.lights[0].outer_angle, 0.78539816f);
+}
+
+TEST(GltfLight, WithoutRangeItEndsWhereItIsDim) {
+  // 0.01 W/m^2 lie at 10 * sqrt(I) m; the level's diagonal of 5.66 m caps it.
+  Scene dim = lit_file({{"type", "point"}, {"intensity", 0.04}}, Json::object()).load();
+  EXPECT_FLOAT_EQ(dim.lights[0].radius, 2.0f);
+  Scene bright = lit_file({{"type", "point"}, {"intensity", 1e9}}, Json::object()).load();
+  EXPECT_FLOAT_EQ(bright.lights[0].radius, std::sqrt(32.0f));
+  EXPECT_EQ(bright.notes.back(), "1 lights have no range, and end where they give 0.01 W/m^2");
+}
+
+TEST(GltfLight, UnusableOnesAreLeftToTheLightSet) {
+  Scene scene = lit_file({{"type", "point"}, {"intensity", -1}, {"range", 0}}, Json::object()).load();
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.lights[0].radius, 0.0f);
+}
+
+TEST(GltfLight, DirectionalIsNoted) {
+  Scene scene = lit_file({{"type", "directional"}}, Json::object()).load();
+  EXPECT_TRUE(scene.lights.empty());
+  EXPECT_EQ(scene.notes.back(), "1 directional lights are ignored");
+}
+
+TEST(GltfCamera, StillPerspective) {
+  GltfTestFile file = triangle_file();
+  file.json["cameras"][0]["perspective"] = {{"yfov", 0.75}, {"znear", 0.25}, {"aspectRatio", 2}};
+  file.json["nodes"][1] = {{"camera", 0}, {"name", "eye"}, {"translation", {1, 2, 3}}};
+  Scene scene = file.load();
+  // Under its own name, and as `default`.
+  ASSERT_EQ(scene.paths.size(), 2u);
+  EXPECT_EQ(scene.paths[0].name, "default");
+  EXPECT_EQ(scene.paths[1].name, "eye");
+  EXPECT_EQ(scene.near, 0.25f);
+  for (const CameraPath& path : scene.paths) {
+    EXPECT_EQ(path.vertical_fov, 0.75f);
+    EXPECT_FALSE(path.has_projection);
+    ASSERT_EQ(path.keys.size(), 1u);
+    EXPECT_EQ(path.keys[0].position + scene.origin, dvec3(1, 2, 3));
+    EXPECT_EQ(glm::normalize(path.keys[0].target - path.keys[0].position), dvec3(0, 0, -1));
+  }
+}
+
+TEST(GltfCamera, Orthographic) {
+  GltfTestFile file = triangle_file();
+  file.json["cameras"][0] = {{"type", "orthographic"},
+                             {"orthographic", {{"xmag", 8}, {"ymag", 4}, {"znear", 0}, {"zfar", 90}}}};
+  Scene scene = file.load();
+  ASSERT_TRUE(scene.paths[0].has_projection);
+  const Projection& projection = scene.paths[0].projection;
+  EXPECT_EQ(projection.kind, ProjectionKind::orthographic);
+  EXPECT_EQ(projection.left, -8.0f);
+  EXPECT_EQ(projection.top, 4.0f);
+  EXPECT_EQ(projection.far, 90.0f);
+  EXPECT_GT(projection.near, 0.0f);
+}
+
+TEST(GltfCamera, NamesAreUnique) {
+  GltfTestFile file = triangle_file();
+  for (int i = 0; i < 3; ++i) {
+    file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
+    file.json["nodes"].push_back({{"camera", 0}, {"name", i == 2 ? "default" : "twin"}});
+  }
+  Scene scene = file.load();
+  std::vector<std::string> names;
+  for (const CameraPath& path : scene.paths) names.push_back(path.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"default", "camera-0", "twin", "twin-2", "default-2"}));
+}
+
+// The camera's node moves and turns; `interpolation` with keys at 0, 1 and 2 s.
+Scene moving(const std::string& interpolation, const std::vector<float>& translations,
+             const std::vector<float>& rotations) {
+  GltfTestFile file = triangle_file();
+  Json animation = {{"channels", Json::array()}, {"samplers", Json::array()}};
+  int input = file.floats({0, 1, 2}, "SCALAR");
+  auto add = [&](const char* path, int output) {
+    animation["channels"].push_back(
+        {{"sampler", animation["samplers"].size()}, {"target", {{"node", 1}, {"path", path}}}});
+    animation["samplers"].push_back({{"input", input}, {"output", output}, {"interpolation", interpolation}});
+  };
+  if (!translations.empty()) add("translation", file.floats(translations, "VEC3"));
+  if (!rotations.empty()) add("rotation", file.floats(rotations, "VEC4"));
+  file.json["animations"] = Json::array({animation});
+  return file.load();
+}
+
+dvec3 position_at(const Scene& scene, double time) {
+  const CameraKey* nearest = &scene.paths[0].keys[0];
+  for (const CameraKey& key : scene.paths[0].keys)
+    if (std::abs(key.time - time) < std::abs(nearest->time - time)) nearest = &key;
+  EXPECT_NEAR(nearest->time, time, 1e-9);
+  return nearest->position + scene.origin;
+}
+
+TEST(GltfCamera, LinearMotionKeepsToTheLine) {
+  Scene scene = moving("LINEAR", {0, 0, 0, 10, 0, 0, 10, 20, 0}, {});
+  EXPECT_EQ(position_at(scene, 0), dvec3(0, 0, 0));
+  EXPECT_EQ(position_at(scene, 1), dvec3(10, 0, 0));
+  EXPECT_LT(glm::length(position_at(scene, 1.5) - dvec3(10, 10, 0)), 1e-9);
+  EXPECT_EQ(scene.paths[0].duration(), 2);
+  for (size_t i = 1; i < scene.paths[0].keys.size(); ++i)
+    EXPECT_GT(scene.paths[0].keys[i].time, scene.paths[0].keys[i - 1].time);
+}
+
+TEST(GltfCamera, RotationTurnsEvenly) {
+  float h = std::sqrt(0.5f);
+  Scene scene = moving("LINEAR", {}, {0, 0, 0, 1, 0, h, 0, h, 0, 1, 0, 0});  // 90 degrees about y each second
+  for (const CameraKey& key : scene.paths[0].keys) {
+    double angle = key.time * 1.5707963267948966;
+    dvec3 forward = glm::normalize(key.target - key.position);
+    EXPECT_LT(glm::length(forward - dvec3(-std::sin(angle), 0, -std::cos(angle))), 1e-6) << key.time;
+  }
+  EXPECT_GE(scene.paths[0].keys.size(), 30u);  // no more than 6 degrees from key to key
+}
+
+TEST(GltfCamera, CubicSplineFollowsItsTangents) {
+  // Hermite with tangents 3: halfway between 0 and 1 lies 0.5 + 0.125 * (3 - 3) = 0.5, at a quarter 0.15625 +
+  // 3 * (0.140625 - 0.046875).
+  std::vector<float> values;
+  for (float x : {0.0f, 1.0f, 2.0f}) values.insert(values.end(), {3, 0, 0, x, 0, 0, 3, 0, 0});
+  Scene scene = moving("CUBICSPLINE", values, {});
+  EXPECT_NEAR(position_at(scene, 0.5).x, 0.5, 1e-9);
+  EXPECT_NEAR(position_at(scene, 0.2).x, 0.104 + 3 * (0.128 - 0.032), 1e-9);
+}
+
+TEST(GltfCamera, StepHoldsItsValue) {
+  Scene scene = moving("STEP", {0, 0, 0, 5, 0, 0, 9, 0, 0}, {});
+  EXPECT_EQ(position_at(scene, 0.9).x, 0);
+  EXPECT_EQ(position_at(scene, 1).x, 5);
+}
+
+TEST(GltfCamera, AMovingParentMovesIt) {
+  GltfTestFile file = triangle_file();
+  file.json["nodes"].push_back({{"children", {1}}});
+  file.json["scenes"][0]["nodes"] = {0, 2};
+  int input = file.floats({0, 1}, "SCALAR"), output = file.floats({0, 0, 0, 0, 100, 0}, "VEC3");
+  file.json["animations"] = Json::array(
+      {{{"channels", Json::array({{{"sampler", 0}, {"target", {{"node", 2}, {"path", "translation"}}}}})},
+        {"samplers", Json::array({{{"input", input}, {"output", output}}})}}});
+  Scene scene = file.load();
+  EXPECT_EQ(position_at(scene, 1), dvec3(0, 105, 0));
+}
+
+TEST(GltfCamera, WithoutOneThereIsAnAutomaticPath) {
+  GltfTestFile file = triangle_file();
+  file.json["nodes"][1].erase("camera");
+  Scene scene = file.load();
+  ASSERT_EQ(scene.paths.size(), 1u);
+  EXPECT_EQ(scene.paths[0].name, "default");
+  EXPECT_FALSE(scene.paths[0].keys.empty());
+}
+
+TEST(GltfExternal, BuffersAndImagesBelowTheFolder) {
+  fs::path folder = fs::temp_directory_path() / ("manylights-external-" + std::to_string(getpid()));
+  fs::create_directories(folder / "data");
+  GltfTestFile file = textured_file();
+  file.json["buffers"] = Json::array({{{"byteLength", file.binary.size()}, {"uri", "data/my%20bytes.bin"}}});
+  file.json["images"][0] = {{"uri", "data/flag.png"}};
+  write_file(folder / "data" / "my bytes.bin", file.binary);
+  write_file(folder / "data" / "flag.png", std::as_bytes(std::span(tiny_png)));
+  write_file(folder / "level.gltf", file.json.dump());
+  Scene scene = import_gltf(folder / "level.gltf", -1, 1, dvec3(0));
+  EXPECT_EQ(scene.name, "level");
+  EXPECT_EQ(scene.triangle_count(), 1u);
+  ASSERT_EQ(scene.textures.size(), 1u);
+  EXPECT_EQ(scene.textures[0].name, "data/flag.png");
+  fs::remove_all(folder);
+}
+
+TEST(GltfExternal, DataUris) {
+  GltfTestFile file = triangle_file();
+  file.json["buffers"] = Json::array(
+      {{{"byteLength", file.binary.size()},
+        {"uri", "data:application/octet-stream;base64," + base64(file.binary.data(), file.binary.size())}}});
+  EXPECT_EQ(GltfTestFile::load_bytes(file.json.dump()).triangle_count(), 1u);
+}
+
+TEST(GltfNotes, WhatIsNotDrawnIsSaid) {
+  GltfTestFile file = triangle_file();
+  file.json["materials"] = Json::array({{{"normalTexture", {{"index", 0}}},
+                                         {"emissiveFactor", {1, 1, 1}},
+                                         {"extensions", {{"KHR_materials_clearcoat", Json::object()}}}}});
+  file.json["skins"] = Json::array({Json::object()});
+  file.json["samplers"] = Json::array({{{"wrapS", 33071}}});
+  file.primitive()["material"] = 0;
+  file.primitive()["targets"] = Json::array();
+  file.primitive()["attributes"]["COLOR_0"] = 0;
+  Scene scene = file.load();
+  EXPECT_EQ(scene.notes.size(), 7u);
+}
+
+}  // namespace
+}  // namespace ml
