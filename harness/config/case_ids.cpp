@@ -40,7 +40,11 @@ std::string file_letters(const std::string& text) {
 std::string setting(const std::string& name, const json& value) {
   if (value.is_boolean()) return value.get<bool>() ? name : "no-" + name;
   if (value.is_string()) return name + "-" + file_letters(value.get<std::string>());
-  if (value.is_number_float()) return name + file_letters(fmt::format("{}", value.get<double>()));
+  if (value.is_number_float()) {
+    std::string digits = fmt::format("{}", value.get<double>());
+    std::erase(digits, '+');  // 1e+06 is 1e06, not 1e-06
+    return name + digits;
+  }
   std::string text = value.dump(-1, ' ', true);
   return name + (value.is_number() ? text : file_letters(text));
 }

@@ -98,16 +98,17 @@ struct Commands::Impl {
 
   bool timed() const { return timing != Timing::none && device.limits.timestamp_valid_bits != 0; }
 
-  void to_general(const Image& image) {
-    if (image.impl().layout == vk::ImageLayout::eGeneral) return;
-    vk::ImageMemoryBarrier2 first_use(vk::PipelineStageFlagBits2::eAllCommands, vk::AccessFlagBits2::eNone,
-                                      vk::PipelineStageFlagBits2::eAllCommands,
-                                      vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
-                                      vk::ImageLayout::eUndefined, vk::ImageLayout::eGeneral, VK_QUEUE_FAMILY_IGNORED,
-                                      VK_QUEUE_FAMILY_IGNORED, *image.impl().image, {image.impl().aspect, 0, 1, 0, 1});
-    buffer.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, first_use));
-    image.impl().layout = vk::ImageLayout::eGeneral;
+  // Shaders and attachments use GENERAL, copies the layouts made for them.
+  void to_layout(const Image& image, vk::ImageLayout layout) {
+    if (image.impl().layout == layout) return;
+    vk::AccessFlags2 all = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
+    vk::ImageMemoryBarrier2 change(vk::PipelineStageFlagBits2::eAllCommands, all, vk::PipelineStageFlagBits2::eAllCommands, all,
+                                   image.impl().layout, layout, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image.impl().image,
+                                   {image.impl().aspect, 0, 1, 0, 1});
+    buffer.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, change));
+    image.impl().layout = layout;
   }
+  void to_general(const Image& image) { to_layout(image, vk::ImageLayout::eGeneral); }
 
   // A descriptor set with everything that the program uses.
   vk::DescriptorSet bind(const Layout& layout, const Bindings& bindings, const std::string& program) {
@@ -261,8 +262,8 @@ void Commands::raster(const RasterTargets& targets, const Buffer& vertices, cons
 
 void Commands::clear(const Image& image) {
   Impl& c = *impl_;
-  c.to_general(image);
-  c.buffer.clearColorImage(*image.impl().image, vk::ImageLayout::eGeneral, vk::ClearColorValue{}, {{image.impl().aspect, 0, 1, 0, 1}});
+  c.to_layout(image, vk::ImageLayout::eTransferDstOptimal);
+  c.buffer.clearColorImage(*image.impl().image, vk::ImageLayout::eTransferDstOptimal, vk::ClearColorValue{}, {{image.impl().aspect, 0, 1, 0, 1}});
   c.barrier();
 }
 
@@ -280,18 +281,18 @@ void Commands::transfer(const UploadBuffer& buffer) {
 void Commands::read_image(const Image& image, const Buffer& into) {
   Impl& c = *impl_;
   assert(into.bytes() >= image.bytes());
-  c.to_general(image);
+  c.to_layout(image, vk::ImageLayout::eTransferSrcOptimal);
   vk::BufferImageCopy region(0, 0, 0, {image.impl().aspect, 0, 0, 1}, {}, {image.width(), image.height(), 1});
-  c.buffer.copyImageToBuffer(*image.impl().image, vk::ImageLayout::eGeneral, *into.impl().buffer, region);
+  c.buffer.copyImageToBuffer(*image.impl().image, vk::ImageLayout::eTransferSrcOptimal, *into.impl().buffer, region);
   c.barrier();
 }
 
 void Commands::write_image(const Buffer& from, const Image& image) {
   Impl& c = *impl_;
   assert(from.bytes() >= image.bytes());
-  c.to_general(image);
+  c.to_layout(image, vk::ImageLayout::eTransferDstOptimal);
   vk::BufferImageCopy region(0, 0, 0, {image.impl().aspect, 0, 0, 1}, {}, {image.width(), image.height(), 1});
-  c.buffer.copyBufferToImage(*from.impl().buffer, *image.impl().image, vk::ImageLayout::eGeneral, region);
+  c.buffer.copyBufferToImage(*from.impl().buffer, *image.impl().image, vk::ImageLayout::eTransferDstOptimal, region);
   c.barrier();
 }
 

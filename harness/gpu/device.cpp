@@ -183,6 +183,7 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, uint32_t 
   vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
   vk::PhysicalDeviceVulkan13Features v13;
   v13.synchronization2 = v13.dynamicRendering = VK_TRUE;
+  v13.maintenance4 = VK_TRUE;  // the shader compiler writes workgroup sizes in its form; every 1.3 device has it
   vk::PhysicalDeviceVulkan12Features v12;
   v12.scalarBlockLayout = VK_TRUE;
   v12.pNext = &v13;

@@ -49,7 +49,7 @@ struct Image::Impl {
   vk::raii::ImageView view = nullptr;
   vk::raii::Sampler sampler = nullptr;
   vk::ImageAspectFlags aspect;
-  // Storage images and attachments live in GENERAL from their first use on.
+  // As of the last command recorded.
   vk::ImageLayout layout = vk::ImageLayout::eUndefined;
 };
 

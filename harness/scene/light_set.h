@@ -63,14 +63,17 @@ const char* rejection_reason(const Light& light);
 // The lights of a run. `at(frame)` is a pure function of (spec, scene, frame).
 class LightSet {
  public:
-  // Throws UsageError when the scene cannot carry the placement (`gltf` without lights).
+  // Throws UsageError when the scene cannot carry the placement (`gltf` without lights, surfaces without
+  // triangles), or the count is too large. `gltf` takes the first `count` of the file's lights. On the scene
+  // `plane` every placement but `gltf` is `area`, of radius 4 and height 2 where the spec names none.
   LightSet(const LightSpec& spec, const Scene& scene);
 
   // The lights that shine in frame `frame` of a path of `frames` frames that lasts `duration` seconds, in
   // ascending order of their stable identity. drift: each light orbits its place within its own radius.
   // spawn: each light has a seeded life and pause, and fades in and out by its radius; about 70 % shine at
-  // once. Never returns a light that rejection_reason() refuses. Reuses `out`; allocates nothing once `out`
-  // has its capacity.
+  // once. A camera that stands still (duration 0) runs at 60 frames a second, so that its lights still move.
+  // Never returns a light that rejection_reason() refuses. Reuses `out`; allocates nothing once `out` has its
+  // capacity.
   void at(uint32_t frame, uint32_t frames, double duration, std::vector<Light>& out) const;
 
   const std::vector<Light>& base() const { return lights_; }  // accepted lights before scripting

@@ -57,6 +57,15 @@ TEST(CaseIds, AreReadable) {
   }
 }
 
+TEST(CaseIds, LargeAndSmallNumbersStayApart) {
+  std::vector<std::string> both = ids(R"({"algorithms": [{"name": "clustered", "zmin": [0.0625, 1e6]}]})");
+  EXPECT_EQ(both, (std::vector<std::string>{"canyon-8192-960x540-clustered-zmin0.0625",
+                                            "canyon-8192-960x540-clustered-zmin1000000"}));
+  EXPECT_EQ(ids(R"({"algorithms": ["ideal"], "sweep": {"lights.intensity": [1e9, 1e-9]}})"),
+            (std::vector<std::string>{"canyon-8192-960x540-lights.intensity1000000000-ideal",
+                                      "canyon-8192-960x540-lights.intensity1e-09-ideal"}));
+}
+
 TEST(CaseIds, SayWhatTheSweepChanges) {
   EXPECT_EQ(ids(R"({"algorithms": ["ideal"], "sweep": {"lights.seed": [3, 4]}})"),
             (std::vector<std::string>{"canyon-8192-960x540-lights.seed3-ideal",

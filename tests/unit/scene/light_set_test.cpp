@@ -3,127 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <set>
-#include <tuple>
 
 #include "harness/base/error.h"
-#include "harness/base/random.h"
-#include "harness/scene/light_law.h"
-#include "harness/scene/mesh_builder.h"
-#include "harness/scene/procedural.h"
-#include "harness/scene/turn.h"
+#include "light_test_level.h"
 
 namespace ml {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-// A box of 40 x 20 x 10 m and, far smaller in area, a needle: triangles are not alike.
-const Scene& level() {
-  static const Scene scene = [] {
-    MeshBuilder mesh;
-    uint32_t material = mesh.add_material({});
-    mesh.box({-20, 0, -5}, {20, 20, 5}, material);
-    mesh.box({-1, 0, -1}, {1, 1, 1}, material);
-    Scene built = mesh.finish();
-    built.name = "boxes";
-    return built;
-  }();
-  return scene;
-}
-
-LightSpec spec_of(uint32_t count, Placement placement = Placement::volume) {
-  LightSpec spec;
-  spec.count = count;
-  spec.placement = placement;
-  return spec;
-}
-
-bool same_bits(const std::vector<Light>& a, const std::vector<Light>& b) {
-  auto key = [](const Light& l) {
-    return std::make_tuple(l.position.x, l.position.y, l.position.z, l.radius, l.intensity.x, l.intensity.y,
-                           l.intensity.z, l.shape, l.direction.x, l.direction.y, l.direction.z, l.inner_angle,
-                           l.outer_angle);
-  };
-  if (a.size() != b.size()) return false;
-  for (size_t i = 0; i < a.size(); ++i) {
-    if (key(a[i]) != key(b[i])) return false;
-  }
-  return true;
-}
-
-TEST(LightLaw, MomentsAreThoseOfTheParetoLaw) {
-  RadiusMoments moments = radius_moments(32);
-  EXPECT_NEAR(moments.mean, 1.94, 0.005);
-  EXPECT_NEAR(moments.square, 6.94, 0.005);
-  EXPECT_NEAR(moments.cube, 62.1, 0.1);
-  for (float ratio : {1.0f, 2.0f, 32.0f, 1000.0f}) {
-    // The midpoint rule in u over the law itself.
-    double mean = 0, square = 0, cube = 0;
-    constexpr int kSteps = 1 << 22;
-    for (int i = 0; i < kSteps; ++i) {
-      double r = pareto_radius(static_cast<float>((i + 0.5) / kSteps), 1, ratio);
-      mean += r / kSteps;
-      square += r * r / kSteps;
-      cube += r * r * r / kSteps;
-    }
-    RadiusMoments formula = radius_moments(static_cast<double>(ratio));
-    EXPECT_NEAR(mean / formula.mean, 1, 2e-3) << ratio;
-    EXPECT_NEAR(square / formula.square, 1, 1e-2) << ratio;
-    EXPECT_NEAR(cube / formula.cube, 1, ratio > 100 ? 0.2 : 2e-2) << ratio;
-  }
-}
-
-TEST(LightLaw, RadiiStayBetweenTheirEnds) {
-  for (float s : {0.01f, 0.6f, 7.0f}) {
-    EXPECT_EQ(pareto_radius(0, s, 32), s);
-    float last = 0;
-    for (uint32_t i = 0; i < 4096; ++i) {
-      float r = pareto_radius(static_cast<float>(i) / 4096, s, 32);
-      EXPECT_GE(r, last);
-      last = r;
-    }
-    EXPECT_LE(pareto_radius(unit_float(0xffffffffu), s, 32), s * 32.001f);
-    EXPECT_EQ(pareto_radius(0.7f, s, 1), s);
-  }
-}
-
-TEST(LightLaw, OverdrawStaysOrGrowsWithTheCount) {
-  for (Placement placement : {Placement::volume, Placement::area, Placement::triangle}) {
-    double power = placement == Placement::volume ? 3 : 2;
-    double first = -1;
-    for (uint32_t count : {1u, 100u, 65536u, 1048576u}) {
-      double s = size_for_count(0.7, count, Sizing::const_overdraw, placement);
-      double overdraw = count * std::pow(s, power);
-      if (first < 0) first = overdraw;
-      EXPECT_NEAR(overdraw / first, 1, 1e-12);
-      EXPECT_EQ(size_for_count(0.7, count, Sizing::fixed_size, placement), 0.7);
-    }
-    EXPECT_EQ(size_for_count(0.7, 65536, Sizing::const_overdraw, placement), 0.7);
-  }
-}
-
-TEST(LightLaw, TheCanyonHasItsOwnSizeAndOtherLevelsAboutThreeLightsPerPoint) {
-  Scene canyon;
-  canyon.name = "canyon";
-  EXPECT_EQ(default_base_size(canyon, Placement::volume, 32), 0.6);
-  double s = default_base_size(level(), Placement::volume, 32);
-  EXPECT_NEAR(0.7 * 65536 * (4 * 3.14159265 / 3) * radius_moments(32).cube * s * s * s / (40 * 20 * 10), 3,
-              1e-3);
-  EXPECT_GT(default_base_size(make_plane(), Placement::volume, 32), 0);
-  EXPECT_EQ(default_base_size(Scene(), Placement::volume, 32), 1);
-}
-
-TEST(SineOfTurns, IsTheSine) {
-  for (int i = -4000; i <= 4000; ++i) {
-    double turns = i / 777.0;
-    EXPECT_NEAR(sine_of_turns(turns), std::sin(turns * 6.283185307179586), 1e-11);
-    EXPECT_NEAR(cosine_of_turns(turns), std::cos(turns * 6.283185307179586), 1e-11);
-  }
-}
 
 TEST(LightSet, TakesEveryCountUpToTheLargest) {
   for (uint32_t count : {0u, 1u, 2u, 65535u, 65536u, 65537u, 1048576u}) {
@@ -332,86 +222,6 @@ TEST(LightSet, GltfPlacementTakesTheFilesLightsInOrder) {
   EXPECT_THROW(LightSet(spec, level()), UsageError);
   EXPECT_THROW(LightSet(spec_of(10, Placement::area), Scene()), UsageError);
   EXPECT_EQ(LightSet(spec_of(0, Placement::area), Scene()).base().size(), 0u);
-}
-
-TEST(LightScripts, AreFunctionsOfTheFrameAlone) {
-  for (LightScript script : {LightScript::none, LightScript::drift, LightScript::spawn}) {
-    LightSpec spec = spec_of(3000);
-    spec.script = script;
-    LightSet set(spec, level());
-    std::vector<Light> there, back;
-    set.at(7, 120, 40, there);
-    for (uint32_t frame : {0u, 119u, 7u}) set.at(frame, 120, 40, back);
-    EXPECT_TRUE(same_bits(there, back));
-    set.at(8, 120, 40, back);
-    EXPECT_EQ(same_bits(there, back), script == LightScript::none);
-    // A camera that stands still does not stop the lights.
-    set.at(1, 10, 0, there);
-    set.at(2, 10, 0, back);
-    EXPECT_EQ(same_bits(there, back), script == LightScript::none);
-  }
-}
-
-TEST(LightScripts, DriftStaysWithinTheRadiusAndComesRound) {
-  LightSpec spec = spec_of(2000);
-  spec.script = LightScript::drift;
-  LightSet set(spec, level());
-  std::vector<Light> out;
-  double moved = 0;
-  for (uint32_t frame = 0; frame < 100; ++frame) {
-    set.at(frame, 100, 40, out);
-    ASSERT_EQ(out.size(), set.base().size());
-    for (size_t i = 0; i < out.size(); ++i) {
-      double distance = glm::length(out[i].position - set.base()[i].position);
-      EXPECT_LE(distance, out[i].radius);
-      EXPECT_EQ(out[i].position.y, set.base()[i].position.y);
-      moved += distance / out[i].radius;
-    }
-  }
-  EXPECT_GT(moved / (100 * 2000), 0.2);
-}
-
-TEST(LightScripts, SpawnShowsAboutSeventyPercentAndFadesByTheRadius) {
-  LightSpec spec = spec_of(4000);
-  spec.script = LightScript::spawn;
-  LightSet set(spec, level());
-  std::vector<Light> out;
-  double shown = 0;
-  std::set<double> seen;
-  for (uint32_t frame = 0; frame < 60; ++frame) {
-    set.at(frame, 60, 30, out);
-    shown += static_cast<double>(out.size());
-    size_t base = 0;
-    for (const Light& light : out) {
-      ASSERT_EQ(rejection_reason(light), nullptr);
-      // Ascending identity: every light is found further on in the base.
-      while (base < set.base().size() && set.base()[base].position != light.position) ++base;
-      ASSERT_LT(base, set.base().size());
-      double fade = light.radius / set.base()[base].radius;
-      EXPECT_LE(fade, 1);
-      EXPECT_NEAR(light.intensity.x / set.base()[base].intensity.x, fade * fade, 1e-5);
-      seen.insert(light.position.x);
-    }
-  }
-  EXPECT_NEAR(shown / (60 * 4000), 0.7, 0.02);
-  EXPECT_GT(seen.size(), 3990u);
-}
-
-TEST(LightScripts, ASteadyFrameAllocatesNothing) {
-  for (LightScript script : {LightScript::none, LightScript::drift, LightScript::spawn}) {
-    LightSpec spec = spec_of(5000);
-    spec.script = script;
-    LightSet set(spec, level());
-    std::vector<Light> out;
-    set.at(0, 50, 10, out);
-    const Light* place = out.data();
-    size_t capacity = out.capacity();
-    for (uint32_t frame = 1; frame < 50; ++frame) {
-      set.at(frame, 50, 10, out);
-      EXPECT_EQ(out.data(), place);
-      EXPECT_EQ(out.capacity(), capacity);
-    }
-  }
 }
 
 TEST(LightNames, AreAsManyAsTheEnumerators) {
