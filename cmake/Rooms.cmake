@@ -18,6 +18,7 @@ endif()
 # The fuzzers see into the libraries, not only into themselves.
 if(MANYLIGHTS_FUZZ)
   target_compile_options(ml_flags INTERFACE -fsanitize=fuzzer-no-link)
+  target_link_options(ml_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # Headers of Debian's packages are system headers: their warnings are not ours.

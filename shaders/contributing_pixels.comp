@@ -1,4 +1,6 @@
 // Every pixel against the lights that touch its block: counts them, or (FILL) writes them down in ascending order at the pixel's offset.
+//
+// The group's mask is narrowed to the block first, each thread taking words of its own; then all pixels walk the few lights that are left.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/contributing_common.glsl"
@@ -13,7 +15,13 @@ layout(r32ui, binding = BIND_CONTRIBUTING) writeonly uniform uimage2D Contributi
 layout(r32ui, binding = BIND_HASH) writeonly uniform uimage2D Hash;
 #endif
 
+// Words of the mask that are narrowed at a time, and which of them have a light left (one bit a word).
+const uint chunk_words = 256u;
+shared uint narrowed[chunk_words];
+shared uint occupied[chunk_words / 32u];
+
 void main() {
+  const uint thread = gl_LocalInvocationIndex;
   uvec2 block = gl_WorkGroupID.xy;
   uvec2 pixel = block * ML_BLOCK + gl_LocalInvocationID.xy;
   BlockBounds box = bounds[block.y * push.blocks.x + block.x];
@@ -28,20 +36,35 @@ void main() {
 #ifdef FILL
   uint next = lit ? offsets[pixel.y * view.resolution.x + pixel.x] : 0u;
 #endif
-  for (uint word = 0u; word < push.mask_words; ++word) {
-    for (uint mask = masks[first_word + word]; mask != 0u; mask &= mask - 1u) {
-      uint light = word * 32u + uint(findLSB(mask));
-      LightCore data = lights[light];
-      if (!touches(data, box)) continue;
-      LightSample from;
-      if (lit && light_sample(point, data, from)) {
-#ifdef FILL
-        indices[next + count] = light;
-#endif
-        count += 1u;
-        hash += light_hash(light);
+  for (uint chunk = 0u; chunk < push.mask_words; chunk += chunk_words) {
+    if (thread < chunk_words / 32u) occupied[thread] = 0u;
+    barrier();
+    for (uint word = thread; word < min(chunk_words, push.mask_words - chunk); word += 64u) {
+      uint kept = 0u;
+      for (uint mask = masks[first_word + chunk + word]; mask != 0u; mask &= mask - 1u) {
+        uint bit = uint(findLSB(mask));
+        if (touches(lights[(chunk + word) * 32u + bit], box)) kept |= 1u << bit;
       }
+      narrowed[word] = kept;
+      if (kept != 0u) atomicOr(occupied[word / 32u], 1u << (word % 32u));
     }
+    barrier();
+    for (uint part = 0u; part < chunk_words / 32u; ++part)
+      for (uint words = occupied[part]; words != 0u; words &= words - 1u) {
+        uint word = part * 32u + uint(findLSB(words));
+        for (uint mask = narrowed[word]; mask != 0u; mask &= mask - 1u) {
+          uint light = (chunk + word) * 32u + uint(findLSB(mask));
+          LightSample from;
+          if (lit && light_sample(point, lights[light], from)) {
+#ifdef FILL
+            indices[next + count] = light;
+#endif
+            count += 1u;
+            hash += light_hash(light);
+          }
+        }
+      }
+    barrier();
   }
 #ifndef FILL
   if (inside) {

@@ -118,7 +118,9 @@ struct Commands::Impl {
     buffers.reserve(layout.slots.size());
     images.reserve(layout.slots.size());
     vk::DescriptorSet set = sets.allocate(device, *layout.set_layout);
-    for (const auto& [name, slot] : layout.slots) {
+    for (const auto& entry : layout.slots) {
+      const std::string& name = entry.first;
+      const BindingSlot& slot = entry.second;
       auto found = std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == name; });
       if (found == bindings.end()) throw std::logic_error(fmt::format("{}: nothing is bound to '{}'", program, name));
       vk::WriteDescriptorSet write(set, slot.binding, 0, 1, slot.type);
@@ -185,8 +187,11 @@ SubmissionTimes Commands::submit() {
     times.fence = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     c.device.device.resetFences(*c.fence);
     if (!c.timed()) return times;
-    auto [result, values] = c.stamps.getResults<uint64_t>(0, c.stamp_count, c.stamp_count * sizeof(uint64_t), sizeof(uint64_t),
-                                                          vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    const std::vector<uint64_t> values =
+        c.stamps
+            .getResults<uint64_t>(0, c.stamp_count, c.stamp_count * sizeof(uint64_t), sizeof(uint64_t),
+                                  vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
+            .second;
     uint32_t bits = c.device.limits.timestamp_valid_bits;
     uint64_t mask = bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1;
     auto between = [&](size_t from, size_t to) {

@@ -12,17 +12,12 @@
 
 namespace ml {
 
-enum class Placement {
-  volume,
-  triangle,
-  area,
-  gltf
-};  // uniform in the scene's box | over triangles | over surface area | the file's own
-enum class Sizing {
-  const_overdraw,
-  fixed_size
-};                                              // s(N) shrinks so that overdraw stays | the same s at every N
-enum class LightScript { none, drift, spawn };  // configuration name of `none`: "static"
+// Uniform in the scene's box | over triangles | over surface area | the file's own.
+enum class Placement { volume, triangle, area, gltf };
+// s(N) shrinks so that overdraw stays | the same s at every N.
+enum class Sizing { const_overdraw, fixed_size };
+// The configuration's name of `none` is "static".
+enum class LightScript { none, drift, spawn };
 
 // Names as in a configuration, in the order of the enumerators.
 const std::vector<std::string>& placement_names();
@@ -33,22 +28,22 @@ struct LightSpec {
   Placement placement = Placement::volume;
   uint32_t count = 8192;  // [0, 1048576]
   Sizing sizing = Sizing::const_overdraw;
-  float base_size =
-      0;  // m, s0 of the radius law at 65,536 lights; 0: the scene's own (scenes.md), or for a glTF level the
-          // size that gives about 3 lights per visible point by the overdraw formula of the placement
+  // m, s0 of the radius law at 65,536 lights. 0: the scene's own (scenes.md), or for a glTF level the size
+  // that gives about 3 lights per visible point by the overdraw formula of the placement.
+  float base_size = 0;
   float radius_ratio = 32;  // largest radius / smallest, [1, 1000]
   float radius = 0;         // m, > 0: every light has this radius, and the law is not used
-  float height = 0;  // m, placement `area` and `triangle` on `plane`: > 0 puts every light exactly this far
-                     // along the surface normal
+  // m, placements `triangle` and `area`: > 0 puts every light exactly this far along the surface normal.
+  float height = 0;
   float spot_fraction = 0;  // [0, 1]: this part of the lights (by hash) are spots
   float intensity = 1;      // factor on all intensities, > 0
   uint32_t seed = 1;
   LightScript script = LightScript::none;
 };
 
-// How many lights were refused and why; refused lights are counted once, by the first reason that holds.
-using Rejections =
-    std::map<std::string, uint32_t>;  // "radius is 0", "radius is negative", "radius is not finite", ...
+// How many lights were refused and why ("radius is 0", "radius is negative", "radius is not finite", ...);
+// each is counted once, by the first reason that holds.
+using Rejections = std::map<std::string, uint32_t>;
 
 // Radii beyond these (m) leave the range of single precision when the shaders square them; positions (m) have
 // a limit for the same reason.

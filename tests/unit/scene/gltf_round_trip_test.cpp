@@ -268,16 +268,18 @@ TEST_F(GltfRoundTrip, TheSameSceneGivesTheSameBytes) {
   std::string first = read_text_file(file());
   export_glb(busy_scene(), many_lights(50), file());
   EXPECT_EQ(first, read_text_file(file()));
-  // And a round trip changes nothing that can be seen in a second export, but the camera's rounding.
-  Scene still = busy_scene();
-  still.paths[0].keys.resize(1);
-  still.paths[0].keys[0] = {0, {1, 2, 3}, {1, 2, -8}};
-  export_glb(still, many_lights(50), file());
-  first = read_text_file(file());
-  Scene again = import_gltf(file(), -1, 1, glm::dvec3(0));
-  EXPECT_EQ(again.textures.size(), 1u);
+}
+
+TEST_F(GltfRoundTrip, ASecondRoundTripChangesNoByte) {
+  // What a quaternion can only approximate is left out: spots, and a camera that does not look along an axis.
+  Scene scene = busy_scene();
+  scene.paths[0].keys = {{0, {1, 2, 3}, {1, 2, -8}}};
+  std::vector<Light> lights = many_lights(50);
+  for (Light& light : lights) light.shape = LightShape::omni;
+  Scene again = there_and_back(scene, lights);
+  std::string first = read_text_file(file());
   export_glb(again, again.lights, file());
-  EXPECT_EQ(first.size(), read_text_file(file()).size());
+  EXPECT_EQ(first, read_text_file(file()));
 }
 
 TEST_F(GltfRoundTrip, NothingUnusedIsWritten) {
