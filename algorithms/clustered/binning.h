@@ -1,5 +1,5 @@
-// CPU stages of clustered binning. Each has two forms that give the same bits: plain scalar code, the readable reference and the baseline
-// of the benchmarks, and vector code (Highway), the one that runs.
+// CPU stages of clustered binning. Culling and bounding have two forms that give the same bits: plain scalar code, the readable reference,
+// and vector code (Highway), the one that runs.
 #pragma once
 
 #include <cstddef>
@@ -53,7 +53,6 @@ namespace scalar {
 FroxelBox bound_ball(const BoundsConstants& constants, float x, float y, float z, float radius);
 void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants, VisibleLights& visible);
 void bound(const VisibleLights& visible, const BoundsConstants& constants, LightBoxes& boxes);
-void emit(const VisibleLights& visible, const LightBoxes& boxes, const FroxelGrid& grid, FroxelPairs& pairs);
 }  // namespace scalar
 
 namespace simd {

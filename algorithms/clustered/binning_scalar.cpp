@@ -136,17 +136,5 @@ void bound(const VisibleLights& visible, const BoundsConstants& c, LightBoxes& b
   }
 }
 
-void emit(const VisibleLights& visible, const LightBoxes& boxes, const FroxelGrid& grid, FroxelPairs& pairs) {
-  size_t n = 0;
-  for (size_t i = 0; i < visible.count; ++i)
-    for (uint32_t row = 0; row < boxes.rows[i]; ++row)
-      for (uint32_t column = 0; column < boxes.columns[i]; ++column)
-        for (uint32_t slice = 0; slice < boxes.slices[i]; ++slice) {
-          pairs.froxel[n] = boxes.first[i] + (row * grid.columns + column) * grid.slices + slice;
-          pairs.light[n++] = visible.index[i];
-        }
-  pairs.count = n;
-}
-
 }  // namespace scalar
 }  // namespace ml

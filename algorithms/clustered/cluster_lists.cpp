@@ -17,16 +17,14 @@ namespace {
 
 }  // namespace
 
-void ClusterLists::bin(Part& part, const BoundsConstants& constants, const ClusterSettings& settings, uint64_t max_entries) const {
-  if (settings.scalar) scalar::bound(part.visible, constants, part.boxes);
-  else simd::bound(part.visible, constants, part.boxes);
+void ClusterLists::emit(Part& part, const BoundsConstants& constants, const ClusterSettings& settings, uint64_t max_entries) const {
+  simd::bound(part.visible, constants, part.boxes);
   uint64_t pairs = count_pairs(part.boxes, part.visible.count);
   if (pairs > max_entries && !settings.refinement) too_many(pairs, max_entries);
   // Refinement leaves out about a tenth; demand far beyond the limit is refused before memory is taken for it.
   if (pairs > 4 * max_entries) too_many(pairs, max_entries);
   reserve_pairs(part.pairs, pairs);
   if (settings.refinement) emit_refined(part.visible, part.boxes, constants, planes_, part.pairs);
-  else if (settings.scalar) scalar::emit(part.visible, part.boxes, grid_, part.pairs);
   else simd::emit(part.visible, part.boxes, grid_, box_offsets_, part.pairs);
   part.next.assign(grid_.cells(), 0);
   for (size_t i = 0; i < part.pairs.count; ++i) ++part.next[part.pairs.froxel[i]];
@@ -43,8 +41,7 @@ void ClusterLists::build(const FrameInput& frame, const ClusterSettings& setting
     auto span = spans.span("cull");
     frame.threads->for_each(parts, [&](size_t p) {
       size_t begin = lights * p / parts, end = lights * (p + 1) / parts;
-      if (settings.scalar) scalar::cull(frame.lights, begin, end, constants, parts_[p].visible);
-      else simd::cull(frame.lights, begin, end, constants, parts_[p].visible);
+      simd::cull(frame.lights, begin, end, constants, parts_[p].visible);
     });
     in_frustum_ = 0;
     for (size_t p = 0; p < parts; ++p) in_frustum_ += parts_[p].visible.count;
@@ -52,7 +49,7 @@ void ClusterLists::build(const FrameInput& frame, const ClusterSettings& setting
   auto span = spans.span("bin");
   box_offsets_.build(grid_);
   if (settings.refinement) planes_ = RefinementPlanes(constants);
-  frame.threads->for_each(parts, [&](size_t p) { bin(parts_[p], constants, settings, max_entries); });
+  frame.threads->for_each(parts, [&](size_t p) { emit(parts_[p], constants, settings, max_entries); });
 
   uint64_t total = 0;
   for (size_t p = 0; p < parts; ++p) total += parts_[p].pairs.count;

@@ -16,7 +16,6 @@ struct ClusterSettings {
   float zmin = 5;         // m, end of the near slice
   float zmax = 0;         // m, 0: the view's far
   bool refinement = false;
-  bool scalar = false;    // the scalar reference instead of the vector code
 };
 
 class ClusterLists {
@@ -39,7 +38,7 @@ class ClusterLists {
     FroxelPairs pairs;
     std::vector<uint32_t> next;  // per froxel: first the part's count, then where its next entry goes
   };
-  void bin(Part& part, const BoundsConstants& constants, const ClusterSettings& settings, uint64_t max_entries) const;
+  void emit(Part& part, const BoundsConstants& constants, const ClusterSettings& settings, uint64_t max_entries) const;
 
   FroxelGrid grid_;
   BoxOffsets box_offsets_;

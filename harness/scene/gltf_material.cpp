@@ -6,6 +6,11 @@
 namespace ml::gltf {
 namespace {
 
+constexpr uint32_t max_side = 16384;  // pixels
+// Deflate makes at most 1032 bytes out of one (and a PNG holds at least 1 bit per pixel), progressive JPEG
+// some 10^4 pixels.
+constexpr size_t pixels_per_byte = 16384;
+
 float unit_factor(double value) {
   return static_cast<float>(std::clamp(value, 0.0, 1.0));
 }
@@ -68,7 +73,9 @@ class MaterialLoader {
     } else {
       file_.fail(place, "has neither a URI nor a buffer view");
     }
-    Texture texture = decode_image(file_, place, bytes, pixels_left_);
+    if (bytes.size() > 0x7fffffff) file_.fail(place, "the image is larger than 2 GiB");
+    Texture texture = is_jpeg(bytes) ? decode_jpeg(file_, place, bytes, pixels_left_)
+                                     : decode_png(file_, place, bytes, pixels_left_);
     pixels_left_ -= size_t{texture.width} * texture.height;
     texture.name = source.value("name", name);
     auto result = static_cast<int>(scene_.textures.size());
@@ -85,6 +92,17 @@ class MaterialLoader {
 };
 
 }  // namespace
+
+void check_image_size(const File& file, const std::string& place, uint32_t width, uint32_t height,
+                      size_t bytes, size_t pixels_left) {
+  size_t pixels = size_t{width} * height;
+  std::string extent = std::to_string(width) + " x " + std::to_string(height) + " pixels";
+  if (pixels == 0) file.fail(place, "the image has no pixels");
+  if (width > max_side || height > max_side) file.fail(place, extent + ", more than 16384 on a side");
+  if (pixels > pixels_left) file.fail(place, extent + " are more than all textures may have together");
+  if (pixels / pixels_per_byte > bytes)
+    file.fail(place, extent + " cannot come out of " + std::to_string(bytes) + " bytes");
+}
 
 void load_materials(File& file, Scene& scene) {
   MaterialLoader(file, scene).load();

@@ -79,9 +79,15 @@ class NodeMotion {
   std::vector<Channel> channels_;
 };
 
-// gltf_stb.cpp. Images in and out.
-// Decodes a PNG or JPEG to 8-bit RGBA; `pixels_left` is what may still be decoded. Throws UsageError.
-Texture decode_image(const File& file, const std::string& place, Bytes bytes, size_t pixels_left);
+// gltf_material.cpp. Refuses images that no honest file holds, before memory is asked for; `pixels_left` is
+// what may still be decoded.
+void check_image_size(const File& file, const std::string& place, uint32_t width, uint32_t height,
+                      size_t bytes, size_t pixels_left);
+// gltf_stb.cpp, gltf_jpeg.cpp. To 8-bit RGBA; colour profiles are ignored, as glTF wants it. Throw
+// UsageError.
+Texture decode_png(const File& file, const std::string& place, Bytes bytes, size_t pixels_left);
+bool is_jpeg(Bytes bytes);
+Texture decode_jpeg(const File& file, const std::string& place, Bytes bytes, size_t pixels_left);
 std::vector<std::byte> encode_png(const Texture& texture);
 
 // gltf_tiny.cpp. tinygltf's Model of the checked description. Throws UsageError.

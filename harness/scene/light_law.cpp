@@ -59,7 +59,8 @@ double default_base_size(const Scene& scene, Placement placement, double ratio) 
 }
 
 double intensity_for_radius(double radius) {
-  return radius * radius / 2.25;
+  // falloff(r / 2) = (1 - 1/16)^2 / (r/2)^2 = 3.515625 / r^2
+  return radius * radius / 3.515625;
 }
 
 }  // namespace ml

@@ -27,7 +27,7 @@ double default_base_size(const Scene& scene, Placement placement, double ratio);
 double surface_area(const Scene& scene);
 
 // Intensity of a light of this radius whose colour has a mean of 1: the irradiance at half the radius is then
-// about 1 W/m^2, whatever the radius, under the windowed falloff (1 - (d/r)^2)^2 / d^2.
+// about 1 W/m^2, whatever the radius, under the windowed falloff (1 - (d/r)^4)^2 / d^2.
 double intensity_for_radius(double radius);
 
 }  // namespace ml

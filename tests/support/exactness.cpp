@@ -1,0 +1,245 @@
+#include "tests/support/exactness.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "harness/accuracy/image_metrics.h"
+#include "harness/base/random.h"
+#include "harness/bench/case_pictures.h"
+#include "harness/bench/verify.h"
+#include "harness/scene/light_set.h"
+
+namespace ml::test {
+
+// An algorithm whose inner one can be exchanged, so that programs are compiled once for many parameters.
+class Exactness::Replaceable final : public Algorithm {
+ public:
+  explicit Replaceable(std::shared_ptr<std::unique_ptr<Algorithm>> inner) : inner_(std::move(inner)) {}
+  void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override { (*inner_)->prepare(frame, memory, spans); }
+  PrepareCounters counters() const override { return (*inner_)->counters(); }
+  std::vector<std::string> buffers() const override { return (*inner_)->buffers(); }
+  ShadeShaders shade_shaders() const override { return (*inner_)->shade_shaders(); }
+  std::vector<uint32_t> shade_constants() const override { return (*inner_)->shade_constants(); }
+  void create_gpu(gpu::Device& owner) override { (*inner_)->create_gpu(owner); }
+  void cull(gpu::Commands& commands, const FrameInput& frame) override { (*inner_)->cull(commands, frame); }
+
+ private:
+  std::shared_ptr<std::unique_ptr<Algorithm>> inner_;
+};
+
+namespace {
+
+const AlgorithmEntry& entry_of(const std::string& name) {
+  return find_algorithm(name, "test");
+}
+
+Parameters parameters_of(const ClusteredSettings& settings) {
+  const std::vector<ParameterInfo>& infos = entry_of("clustered").parameters;
+  Parameters parameters(infos);
+  parameters.set(infos, "tile", settings.tile, "test");
+  parameters.set(infos, "slices", settings.slices, "test");
+  parameters.set(infos, "zmin", settings.zmin, "test");
+  parameters.set(infos, "zmax", settings.zmax, "test");
+  parameters.set(infos, "refinement", settings.refinement, "test");
+  parameters.set(infos, "light_data", std::string(settings.duplicated ? "duplicated" : "indexed"), "test");
+  return parameters;
+}
+
+double floor_of(const Picture& picture) {
+  double sum = 0;
+  for (float value : picture.data) sum += static_cast<double>(value);
+  return std::max(image_floor * sum / static_cast<double>(picture.data.size()), 1e-30);
+}
+
+// Pixels whose count or set of contributing lights is not the reference's.
+uint64_t mismatches(const PixelCounts& counts, const ContributingLights& truth) {
+  uint64_t wrong = 0;
+  for (size_t i = 0; i < truth.count.size(); ++i)
+    wrong += counts.contributing[i] != truth.count[i] || counts.hash[i] != truth.hash[i];
+  return wrong;
+}
+
+void expect_same_image(const Picture& image, const Picture& reference, double floor) {
+  ImageDifference difference = compare_images(image, reference, floor);
+  EXPECT_LE(difference.max_relative, image_tolerance) << "at " << difference.worst_x << ", " << difference.worst_y;
+  EXPECT_EQ(difference.not_finite, 0u);
+}
+
+}  // namespace
+
+std::string ClusteredSettings::text() const {
+  return fmt::format("clustered tile {} slices {} zmin {} zmax {}{}{}", tile, slices, zmin, zmax, refinement ? " refined" : "",
+                     duplicated ? " duplicated" : "");
+}
+
+std::vector<ClusteredSettings> usual_settings() {
+  return {{.refinement = false, .duplicated = false},
+          {.tile = 16, .refinement = true},
+          {.tile = 7, .slices = 64, .zmin = 0.5, .duplicated = true},
+          {.tile = 5, .slices = 1, .refinement = true, .duplicated = true},
+          {.tile = 13, .slices = 3, .zmin = 2, .zmax = 20, .refinement = true}};
+}
+
+uint64_t Seen::contributing() const {
+  return std::accumulate(truth.count.begin(), truth.count.end(), uint64_t{0});
+}
+
+uint64_t Seen::lit_pixels() const {
+  return std::accumulate(lit.begin(), lit.end(), uint64_t{0});
+}
+
+Exactness::Exactness(const Scene& scene, uint32_t width, uint32_t height, const Effects& effects)
+    : frame_(device(), scene, effects, width, height),
+      brute_(device(), entry_of("brute_force"), Parameters(entry_of("brute_force").parameters), effects),
+      ideal_(device(), entry_of("ideal"), {}, effects) {
+  input_.threads = &threads_;
+}
+
+Exactness::~Exactness() = default;
+
+Exactness::Slot& Exactness::clustered(const ClusteredSettings& settings) {
+  Slot& slot = slots_[settings.duplicated];
+  const AlgorithmEntry& real = entry_of("clustered");
+  if (!slot.shaded) {
+    slot.inner = std::make_shared<std::unique_ptr<Algorithm>>(real.create(parameters_of(settings)));
+    slot.entry = real;
+    slot.entry.create = [inner = slot.inner](const Parameters&) { return std::make_unique<Replaceable>(inner); };
+    slot.shaded = std::make_unique<ShadedAlgorithm>(device(), slot.entry, Parameters(real.parameters), frame_.effects());
+  }
+  *slot.inner = real.create(parameters_of(settings));
+  return slot;
+}
+
+Seen Exactness::expect_exact(const Camera& camera, const std::vector<Light>& lights,
+                             const std::vector<ClusteredSettings>& settings, uint32_t oracle_points) {
+  for (const Light& light : lights) EXPECT_EQ(rejection_reason(light), nullptr) << rejection_reason(light);
+  storage_.fill(lights, camera.position);
+  input_.view = view_data(camera, width(), height(), static_cast<uint32_t>(lights.size()));
+  input_.lights = storage_.lights();
+  frame_.load(input_);
+  Seen seen;
+  seen.truth = frame_.find_contributing(input_, true);
+  seen.lit = ml::lit_pixels(frame_);
+
+  Spans spans;
+  brute_.prepare(input_, spans);
+  brute_.count(frame_, input_);
+  seen.image = result_picture(frame_);
+  EXPECT_EQ(mismatches(read_counts(frame_), seen.truth), 0u) << "pixels, brute_force";
+  EXPECT_EQ(compare_images(seen.image, seen.image).not_finite, 0u) << "brute_force";
+  const double floor = floor_of(seen.image);
+
+  ideal_.prepare(input_, spans);
+  ideal_.count(frame_, input_);
+  {
+    SCOPED_TRACE("ideal");
+    EXPECT_EQ(mismatches(read_counts(frame_), seen.truth), 0u) << "pixels";
+    expect_same_image(result_picture(frame_), seen.image, floor);
+  }
+  for (const ClusteredSettings& each : settings) {
+    SCOPED_TRACE(each.text());
+    expect_clustered(each, seen, floor);
+  }
+  if (oracle_points) expect_oracle(seen, oracle_points, floor);
+  return seen;
+}
+
+void Exactness::expect_clustered(const ClusteredSettings& settings, Seen& seen, double floor) {
+  Slot& slot = clustered(settings);
+  ShadedAlgorithm& algorithm = *slot.shaded;
+  Spans spans;
+  algorithm.prepare(input_, spans);
+  const uint64_t digest = algorithm.upload_digest();
+  algorithm.count(frame_, input_);
+  PixelCounts counts = read_counts(frame_);
+  Picture image = result_picture(frame_);
+  FrameCounters frame = summarize(counts, seen.truth, seen.lit, algorithm.counters());
+  EXPECT_EQ(frame.lost, 0u);
+  EXPECT_EQ(frame.mismatched_pixels, 0u);
+  EXPECT_EQ(frame.prepare.overflow_tiles, 0u);
+  EXPECT_EQ(frame.prepare.overflow_lights, 0u);
+  EXPECT_LE(frame.prepare.in_frustum, input_.lights.count());
+  for (size_t i = 0; i < seen.lit.size(); ++i) ASSERT_LE(counts.listed[i], input_.lights.count()) << "pixel " << i;
+  expect_same_image(image, seen.image, floor);
+
+  // Again, with the timed program, and prepared anew by other numbers of threads.
+  algorithm.shade(frame_, input_, gpu::Timing::none);
+  EXPECT_EQ(compare_images(result_picture(frame_), image).differing_bits, 0u) << "timed and counting program differ";
+  for (unsigned count : {1u, 2u, 7u}) {
+    Threads threads(count);
+    FrameInput again = input_;
+    again.threads = &threads;
+    algorithm.prepare(again, spans);
+    EXPECT_EQ(algorithm.upload_digest(), digest) << count << " threads";
+  }
+  algorithm.count(frame_, input_);
+  PixelCounts second = read_counts(frame_);
+  EXPECT_TRUE(counts.listed == second.listed && counts.tested == second.tested && counts.hash == second.hash)
+      << "counters differ the second time";
+  EXPECT_EQ(compare_images(result_picture(frame_), image).differing_bits, 0u) << "the second time";
+  seen.clustered.push_back(std::move(counts));
+  seen.prepared.push_back(frame.prepare);
+}
+
+void Exactness::expect_oracle(const Seen& seen, uint32_t points, double floor) {
+  std::vector<size_t> lit;
+  for (size_t i = 0; i < seen.lit.size(); ++i)
+    if (seen.lit[i]) lit.push_back(i);
+  ASSERT_FALSE(lit.empty()) << "the camera sees no surface";
+  OracleFrame oracle(frame_, input_);
+  for (uint32_t n = 0; n < std::min<size_t>(points, lit.size()); ++n) {
+    const size_t pixel = lit[(2 * size_t{n} + 1) * lit.size() / (2 * std::min<size_t>(points, lit.size()))];
+    OracleAnswer answer = oracle_shade(oracle.point(pixel), oracle.lights(), frame_.effects().specular);
+    const uint32_t count = seen.truth.count[pixel];
+    EXPECT_LE(std::max(count, answer.contributing) - std::min(count, answer.contributing), answer.marginal) << "pixel " << pixel;
+    for (int channel = 0; channel < 3; ++channel) {
+      const double truth = answer.radiance[channel], value = static_cast<double>(seen.image.data[3 * pixel + static_cast<size_t>(channel)]);
+      EXPECT_NEAR(value, truth, 1e-3 * std::max(std::abs(truth), floor)) << "pixel " << pixel << ", channel " << channel;
+    }
+  }
+}
+
+Light omni(glm::dvec3 position, float radius, float intensity) {
+  Light light;
+  light.position = position;
+  light.radius = radius;
+  light.intensity = glm::vec3(1, 0.8f, 0.6f) * intensity;
+  return light;
+}
+
+Light spot(glm::dvec3 position, float radius, glm::vec3 direction, float inner_degrees, float outer_degrees) {
+  Light light = omni(position, radius);
+  light.shape = LightShape::spot;
+  light.direction = glm::normalize(direction);
+  light.inner_angle = inner_degrees * degrees;
+  light.outer_angle = std::min(outer_degrees * degrees, 3.1415925f);
+  return light;
+}
+
+std::vector<Light> scattered(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest, float largest, uint32_t seed,
+                             uint32_t spot_every) {
+  Random random(seed);
+  std::vector<Light> lights;
+  for (uint32_t i = 0; i < count; ++i) {
+    glm::dvec3 at(static_cast<double>(random.uniform()), static_cast<double>(random.uniform()), static_cast<double>(random.uniform()));
+    float radius = smallest * std::pow(largest / smallest, random.uniform());
+    Light light = omni(low + at * (high - low), radius, radius * radius);
+    if (spot_every && i % spot_every == 0) {
+      glm::vec3 axis(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      float outer = random.uniform(1, 180);
+      light = spot(light.position, radius, glm::length(axis) > 0.1f ? axis : glm::vec3(0, -1, 0), random.uniform(0, outer), outer);
+    }
+    lights.push_back(light);
+  }
+  return lights;
+}
+
+Camera camera_at(glm::dvec3 position, glm::dvec3 target, uint32_t width, uint32_t height, float near, float far) {
+  const float aspect = static_cast<float>(width) / static_cast<float>(height);
+  return Camera::look_at(position, target, Projection::perspective(60 * degrees, aspect, near, far));
+}
+
+}  // namespace ml::test

@@ -1,0 +1,23 @@
+// The one Vulkan device of a test program, with the validation layer listening.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "harness/gpu/device.h"
+
+namespace ml::test {
+
+// Opened when first asked for, closed after the last test.
+gpu::Device& device();
+
+// Fails the test when the validation layer (synchronization validation included) said anything during it.
+class DeviceTest : public testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+ private:
+  size_t messages_before_ = 0;
+};
+
+}  // namespace ml::test
