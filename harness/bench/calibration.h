@@ -16,7 +16,7 @@ struct Calibration {
     double whole_ms = 0, fence_ms = 0;
   };
   std::vector<Order> orders;
-  // The same compute pass, slowest over fastest of all orders' medians.
+  // The same compute pass in all orders (the fastest of its repeats each), slowest over fastest.
   double compute_spread = 0;
   // Largest |sum of spans - whole| / whole over the orders.
   double span_disagreement = 0;
@@ -35,7 +35,7 @@ inline constexpr double calibration_span_limit = 0.10;
 inline constexpr double calibration_fence_limit = 1.10;
 
 // Takes about half a second. `repeats` per order.
-Calibration calibrate(gpu::Device& device, uint32_t repeats = 3);
+Calibration calibrate(gpu::Device& device, uint32_t repeats = 5);
 
 // Whether the three times of one submission contradict each other; "" or why. Differences below 0.2 ms are nothing.
 std::string timing_contradiction(const gpu::SubmissionTimes& times, gpu::Timing timing);

@@ -30,7 +30,7 @@ DoctorReport examine(const std::string& device_selector) {
   gpu::Device device({device_selector, false});
   const gpu::DeviceLimits& limits = device.limits();
   const bool software = device.info().is_software();
-  Calibration calibration = calibrate(device, 5);
+  Calibration calibration = calibrate(device);
   nlohmann::json context = run_context(device, calibration);
   const nlohmann::json& host = context["host"];
   report.text += fmt::format("host\n  {}, {} cores, {:.1f} GB; {}, kernel {}\n", host["cpu"].get<std::string>(),

@@ -18,7 +18,9 @@ namespace ml::test {
 class Exactness::Replaceable final : public Algorithm {
  public:
   explicit Replaceable(std::shared_ptr<std::unique_ptr<Algorithm>> inner) : inner_(std::move(inner)) {}
-  void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override { (*inner_)->prepare(frame, memory, spans); }
+  void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override {
+    (*inner_)->prepare(frame, memory, spans);
+  }
   PrepareCounters counters() const override { return (*inner_)->counters(); }
   std::vector<std::string> buffers() const override { return (*inner_)->buffers(); }
   ShadeShaders shade_shaders() const override { return (*inner_)->shade_shaders(); }
@@ -64,15 +66,16 @@ uint64_t mismatches(const PixelCounts& counts, const ContributingLights& truth) 
 
 void expect_same_image(const Picture& image, const Picture& reference, double floor) {
   ImageDifference difference = compare_images(image, reference, floor);
-  EXPECT_LE(difference.max_relative, image_tolerance) << "at " << difference.worst_x << ", " << difference.worst_y;
+  EXPECT_LE(difference.max_relative, image_tolerance)
+      << "at " << difference.worst_x << ", " << difference.worst_y;
   EXPECT_EQ(difference.not_finite, 0u);
 }
 
 }  // namespace
 
 std::string ClusteredSettings::text() const {
-  return fmt::format("clustered tile {} slices {} zmin {} zmax {}{}{}", tile, slices, zmin, zmax, refinement ? " refined" : "",
-                     duplicated ? " duplicated" : "");
+  return fmt::format("clustered tile {} slices {} zmin {} zmax {}{}{}", tile, slices, zmin, zmax,
+                     refinement ? " refined" : "", duplicated ? " duplicated" : "");
 }
 
 std::vector<ClusteredSettings> usual_settings() {
@@ -106,8 +109,11 @@ Exactness::Slot& Exactness::clustered(const ClusteredSettings& settings) {
   if (!slot.shaded) {
     slot.inner = std::make_shared<std::unique_ptr<Algorithm>>(real.create(parameters_of(settings)));
     slot.entry = real;
-    slot.entry.create = [inner = slot.inner](const Parameters&) { return std::make_unique<Replaceable>(inner); };
-    slot.shaded = std::make_unique<ShadedAlgorithm>(device(), slot.entry, Parameters(real.parameters), frame_.effects());
+    slot.entry.create = [inner = slot.inner](const Parameters&) {
+      return std::make_unique<Replaceable>(inner);
+    };
+    slot.shaded = std::make_unique<ShadedAlgorithm>(device(), slot.entry, Parameters(real.parameters),
+                                                    frame_.effects());
   }
   *slot.inner = real.create(parameters_of(settings));
   return slot;
@@ -162,12 +168,14 @@ void Exactness::expect_clustered(const ClusteredSettings& settings, Seen& seen, 
   EXPECT_EQ(frame.prepare.overflow_tiles, 0u);
   EXPECT_EQ(frame.prepare.overflow_lights, 0u);
   EXPECT_LE(frame.prepare.in_frustum, input_.lights.count());
-  for (size_t i = 0; i < seen.lit.size(); ++i) ASSERT_LE(counts.listed[i], input_.lights.count()) << "pixel " << i;
+  for (size_t i = 0; i < seen.lit.size(); ++i)
+    ASSERT_LE(counts.listed[i], input_.lights.count()) << "pixel " << i;
   expect_same_image(image, seen.image, floor);
 
   // Again, with the timed program, and prepared anew by other numbers of threads.
   algorithm.shade(frame_, input_, gpu::Timing::none);
-  EXPECT_EQ(compare_images(result_picture(frame_), image).differing_bits, 0u) << "timed and counting program differ";
+  EXPECT_EQ(compare_images(result_picture(frame_), image).differing_bits, 0u)
+      << "timed and counting program differ";
   for (unsigned count : {1u, 2u, 7u}) {
     Threads threads(count);
     FrameInput again = input_;
@@ -194,10 +202,13 @@ void Exactness::expect_oracle(const Seen& seen, uint32_t points, double floor) {
     const size_t pixel = lit[(2 * size_t{n} + 1) * lit.size() / (2 * std::min<size_t>(points, lit.size()))];
     OracleAnswer answer = oracle_shade(oracle.point(pixel), oracle.lights(), frame_.effects().specular);
     const uint32_t count = seen.truth.count[pixel];
-    EXPECT_LE(std::max(count, answer.contributing) - std::min(count, answer.contributing), answer.marginal) << "pixel " << pixel;
+    EXPECT_LE(std::max(count, answer.contributing) - std::min(count, answer.contributing), answer.marginal)
+        << "pixel " << pixel;
     for (int channel = 0; channel < 3; ++channel) {
-      const double truth = answer.radiance[channel], value = static_cast<double>(seen.image.data[3 * pixel + static_cast<size_t>(channel)]);
-      EXPECT_NEAR(value, truth, 1e-3 * std::max(std::abs(truth), floor)) << "pixel " << pixel << ", channel " << channel;
+      const double truth = answer.radiance[channel],
+                   value = static_cast<double>(seen.image.data[3 * pixel + static_cast<size_t>(channel)]);
+      EXPECT_NEAR(value, truth, 1e-3 * std::max(std::abs(truth), floor))
+          << "pixel " << pixel << ", channel " << channel;
     }
   }
 }
@@ -219,25 +230,28 @@ Light spot(glm::dvec3 position, float radius, glm::vec3 direction, float inner_d
   return light;
 }
 
-std::vector<Light> scattered(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest, float largest, uint32_t seed,
-                             uint32_t spot_every) {
+std::vector<Light> scattered(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest, float largest,
+                             uint32_t seed, uint32_t spot_every) {
   Random random(seed);
   std::vector<Light> lights;
   for (uint32_t i = 0; i < count; ++i) {
-    glm::dvec3 at(static_cast<double>(random.uniform()), static_cast<double>(random.uniform()), static_cast<double>(random.uniform()));
+    glm::dvec3 at(static_cast<double>(random.uniform()), static_cast<double>(random.uniform()),
+                  static_cast<double>(random.uniform()));
     float radius = smallest * std::pow(largest / smallest, random.uniform());
     Light light = omni(low + at * (high - low), radius, radius * radius);
     if (spot_every && i % spot_every == 0) {
       glm::vec3 axis(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
       float outer = random.uniform(1, 180);
-      light = spot(light.position, radius, glm::length(axis) > 0.1f ? axis : glm::vec3(0, -1, 0), random.uniform(0, outer), outer);
+      light = spot(light.position, radius, glm::length(axis) > 0.1f ? axis : glm::vec3(0, -1, 0),
+                   random.uniform(0, outer), outer);
     }
     lights.push_back(light);
   }
   return lights;
 }
 
-Camera camera_at(glm::dvec3 position, glm::dvec3 target, uint32_t width, uint32_t height, float near, float far) {
+Camera camera_at(glm::dvec3 position, glm::dvec3 target, uint32_t width, uint32_t height, float near,
+                 float far) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   return Camera::look_at(position, target, Projection::perspective(60 * degrees, aspect, near, far));
 }

@@ -1,5 +1,5 @@
-// What every exact algorithm owes in every case: nothing lost, nothing twice, nothing infinite, the same bits again, and the
-// oracle's answer.
+// What every exact algorithm owes in every case: nothing lost, nothing twice, nothing infinite, the same bits
+// again, and the oracle's answer.
 #pragma once
 
 #include <memory>
@@ -31,24 +31,27 @@ std::vector<ClusteredSettings> usual_settings();
 struct Seen {
   ContributingLights truth;
   std::vector<uint8_t> lit;
-  Picture image;                        // brute force
-  std::vector<PixelCounts> clustered;   // one for each of the settings
+  Picture image;                       // brute force
+  std::vector<PixelCounts> clustered;  // one for each of the settings
   std::vector<PrepareCounters> prepared;
-  uint64_t contributing() const;        // over all pixels
+  uint64_t contributing() const;  // over all pixels
   uint64_t lit_pixels() const;
 };
 
-// One scene at one resolution on the device, with the algorithms under test. Programs are compiled once; parameters change freely.
+// One scene at one resolution on the device, with the algorithms under test. Programs are compiled once;
+// parameters change freely.
 class Exactness {
  public:
   // Two spot and specular variants of all programs are compiled at most.
   Exactness(const Scene& scene, uint32_t width, uint32_t height, const Effects& effects = {.spots = true});
   ~Exactness();
 
-  // Expects all invariants of the frame, for brute_force, ideal and clustered with each of the settings. `oracle_points`: pixels that
-  // the double-precision oracle answers, spread over the lit ones; the checks need at least one lit pixel unless it is 0.
+  // Expects all invariants of the frame, for brute_force, ideal and clustered with each of the settings.
+  // `oracle_points`: pixels that the double-precision oracle answers, spread over the lit ones; the checks
+  // need at least one lit pixel unless it is 0.
   Seen expect_exact(const Camera& camera, const std::vector<Light>& lights,
-                    const std::vector<ClusteredSettings>& settings = usual_settings(), uint32_t oracle_points = 12);
+                    const std::vector<ClusteredSettings>& settings = usual_settings(),
+                    uint32_t oracle_points = 12);
 
   // The frame of the last check.
   const FrameInput& input() const { return input_; }
@@ -79,13 +82,15 @@ class Exactness {
 Light omni(glm::dvec3 position, float radius, float intensity = 1);
 // Angles in degrees, half-angles of the cone.
 Light spot(glm::dvec3 position, float radius, glm::vec3 direction, float inner_degrees, float outer_degrees);
-// `count` lights, uniform in the box, radii log-uniform between the two; every `spot_every`-th is a spot (0: none).
-std::vector<Light> scattered(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest, float largest, uint32_t seed,
-                             uint32_t spot_every = 3);
+// `count` lights, uniform in the box, radii log-uniform between the two; every `spot_every`-th is a spot (0:
+// none).
+std::vector<Light> scattered(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest, float largest,
+                             uint32_t seed, uint32_t spot_every = 3);
 
 constexpr float degrees = 0.017453292519943295f;
 
 // A perspective camera of 60 degrees for a picture of this size.
-Camera camera_at(glm::dvec3 position, glm::dvec3 target, uint32_t width, uint32_t height, float near = 0.1f, float far = 200);
+Camera camera_at(glm::dvec3 position, glm::dvec3 target, uint32_t width, uint32_t height, float near = 0.1f,
+                 float far = 200);
 
 }  // namespace ml::test

@@ -29,8 +29,10 @@ HandMadeScene& HandMadeScene::rectangle(glm::vec3 corner, glm::vec3 u, glm::vec3
     scene_.vertices.push_back({corner + u * at.x + v * at.y, normal, at});
   const auto begin = static_cast<uint32_t>(scene_.indices.size());
   for (uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) scene_.indices.push_back(first + i);
-  if (!scene_.draws.empty() && scene_.draws.back().material == material) scene_.draws.back().index_count += 6;
-  else scene_.draws.push_back({begin, 6, material});
+  if (!scene_.draws.empty() && scene_.draws.back().material == material)
+    scene_.draws.back().index_count += 6;
+  else
+    scene_.draws.push_back({begin, 6, material});
   return *this;
 }
 
@@ -43,7 +45,8 @@ HandMadeScene& HandMadeScene::box(glm::vec3 low, glm::vec3 high, uint32_t materi
 
 Scene HandMadeScene::finish() const {
   Scene scene = scene_;
-  scene.bounds = {glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
+  scene.bounds = {glm::vec3(std::numeric_limits<float>::max()),
+                  glm::vec3(std::numeric_limits<float>::lowest())};
   for (const Vertex& vertex : scene.vertices) {
     scene.bounds.min = glm::min(scene.bounds.min, vertex.position);
     scene.bounds.max = glm::max(scene.bounds.max, vertex.position);
@@ -73,7 +76,9 @@ Scene yard() {
 }
 
 Scene floor_at(glm::vec3 center, float side) {
-  return HandMadeScene().rectangle(center + glm::vec3(-side / 2, 0, side / 2), {side, 0, 0}, {0, 0, -side}).finish();
+  return HandMadeScene()
+      .rectangle(center + glm::vec3(-side / 2, 0, side / 2), {side, 0, 0}, {0, 0, -side})
+      .finish();
 }
 
 }  // namespace ml::test

@@ -13,7 +13,8 @@ std::unique_ptr<gpu::Device>& holder() {
 class CloseDevice final : public testing::Environment {
   void TearDown() override { holder().reset(); }
 };
-[[maybe_unused]] const testing::Environment* const closes_device = testing::AddGlobalTestEnvironment(new CloseDevice);
+[[maybe_unused]] const testing::Environment* const closes_device =
+    testing::AddGlobalTestEnvironment(new CloseDevice);
 
 }  // namespace
 
@@ -28,7 +29,8 @@ void DeviceTest::SetUp() {
 
 void DeviceTest::TearDown() {
   std::vector<std::string> messages = device().validation_messages();
-  for (size_t i = messages_before_; i < messages.size(); ++i) ADD_FAILURE() << "validation layer: " << messages[i];
+  for (size_t i = messages_before_; i < messages.size(); ++i)
+    ADD_FAILURE() << "validation layer: " << messages[i];
 }
 
 }  // namespace ml::test

@@ -1,0 +1,96 @@
+// The worked example, through the public interface alone: what a new algorithm's author writes first.
+#include "examples/frustum_list/frustum_list.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "harness/bench/counting.h"
+#include "harness/bench/workload.h"
+#include "harness/config/config.h"
+#include "harness/frame/shaded_algorithm.h"
+
+namespace ml {
+namespace {
+
+// A small picture of the canyon. The frames look along the valley, into the tunnel and across it.
+Config canyon() {
+  return parse_config_text(
+      R"({"name": "example", "scene": "canyon", "lights": {"placement": "volume", "count": 700, "animate": "drift"},
+                               "camera": {"frames": 5}, "resolution": [121, 67], "algorithms": ["ideal"]})",
+      "example", "");
+}
+
+Parameters with_sides(const AlgorithmEntry& entry, bool sides) {
+  Parameters parameters(entry.parameters);
+  parameters.set(entry.parameters, "sides", sides, "test");
+  return parameters;
+}
+
+class FrustumList : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Sides, FrustumList, testing::Bool(),
+                         [](const auto& sides) { return sides.param ? "culled" : "kept"; });
+
+TEST_P(FrustumList, LosesNoLight) {
+  const Config config = canyon();
+  Workload workload(config.setups.front(), 1);
+  gpu::Device device({.selector = "", .validation = true});
+  FrameSequence& frames = workload.frames();
+  DeviceFrame frame(device, *workload.scene(), workload.effects(), frames.width(), frames.height());
+  const AlgorithmEntry entry = frustum_list_entry();
+  ShadedAlgorithm algorithm(device, entry, with_sides(entry, GetParam()), workload.effects());
+  Spans spans;
+  double contributing = 0;
+  for (uint32_t index = 0; index < frames.frames(); ++index) {
+    const FrameInput& input = frames.at(index);
+    frame.load(input);
+    frame.find_contributing(input, false);
+    algorithm.prepare(input, spans);
+    algorithm.count(frame, input);
+    FrameCounters counters =
+        summarize(read_counts(frame), frame.contributing(), lit_pixels(frame), algorithm.counters());
+    EXPECT_EQ(counters.lost, 0u) << "frame " << index;
+    EXPECT_EQ(counters.mismatched_pixels, 0u) << "frame " << index;
+    EXPECT_DOUBLE_EQ(counters.listed, static_cast<double>(counters.prepare.in_frustum)) << "frame " << index;
+    contributing += counters.contributing;
+  }
+  EXPECT_GT(contributing, 0);  // there was something to lose
+  EXPECT_EQ(device.validation_messages(), std::vector<std::string>{});
+}
+
+// Memory without a device, as unit tests and benchmarks of prepare() have it.
+class PlainMemory final : public UploadMemory {
+ public:
+  std::span<std::byte> map(uint32_t, size_t bytes) override {
+    words_.resize((bytes + 3) / 4);
+    return std::as_writable_bytes(std::span(words_)).first(bytes);
+  }
+  size_t limit() const override { return size_t{1} << 27; }
+  const std::vector<uint32_t>& words() const { return words_; }
+
+ private:
+  std::vector<uint32_t> words_;
+};
+
+TEST(FrustumListPrepare, SidesOnlyShortenTheList) {
+  const Config config = canyon();
+  Workload workload(config.setups.front(), 1);
+  const AlgorithmEntry entry = frustum_list_entry();
+  auto culled = entry.create(with_sides(entry, true)), kept = entry.create(with_sides(entry, false));
+  Spans spans;
+  for (uint32_t index = 0; index < workload.frames().frames(); ++index) {
+    const FrameInput& input = workload.frames().at(index);
+    PlainMemory few, many;
+    culled->prepare(input, few, spans);
+    kept->prepare(input, many, spans);
+    const std::vector<uint32_t> short_list(few.words().begin() + 1, few.words().end());
+    const std::vector<uint32_t> long_list(many.words().begin() + 1, many.words().end());
+    EXPECT_EQ(few.words()[0], short_list.size());
+    EXPECT_LT(short_list.size(), long_list.size());
+    EXPECT_LE(long_list.size(), input.lights.count());
+    EXPECT_TRUE(std::includes(long_list.begin(), long_list.end(), short_list.begin(), short_list.end()));
+  }
+}
+
+}  // namespace
+}  // namespace ml
