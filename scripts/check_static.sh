@@ -41,13 +41,14 @@ schemas() { /usr/bin/python3 scripts/check_schemas.py build/release/manylights; 
 
 architecture() { /usr/bin/python3 scripts/check_architecture.py; }
 
-# POSIX shells parse the scripts; shellcheck reads them where it is installed.
+# The shells parse the scripts; shellcheck reads them where it is installed.
 scripts() {
   bad=0
-  for script in scripts/*.sh tests/scripts/*.sh .ci/run; do
+  for script in scripts/*.sh tests/scripts/*.sh; do
     sh -n "$script" || bad=1
   done
-  if command -v shellcheck >/dev/null 2>&1; then shellcheck --exclude=SC2086 scripts/*.sh tests/scripts/*.sh .ci/run || bad=1; fi
+  bash -n .ci/run || bad=1
+  if command -v shellcheck >/dev/null 2>&1; then shellcheck --exclude=SC2086 scripts/*.sh .ci/run || bad=1; fi
   return $bad
 }
 

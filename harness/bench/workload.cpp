@@ -21,7 +21,8 @@ CameraPath path_of(const CameraSpec& spec, const Scene& scene) {
 }  // namespace
 
 bool same_scene(const SceneSpec& a, const SceneSpec& b) {
-  return a.procedural == b.procedural && a.gltf == b.gltf && a.gltf_scene == b.gltf_scene && a.seed == b.seed && a.offset == b.offset;
+  return a.procedural == b.procedural && a.gltf == b.gltf && a.gltf_scene == b.gltf_scene && a.seed == b.seed && a.offset == b.offset &&
+         a.two_sided == b.two_sided;
 }
 
 Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const Scene> scene)

@@ -148,6 +148,8 @@ std::span<const Field<SceneSpec>> scene_fields() {
        [](const SceneSpec& s) { return json(s.seed); }},
       {"offset", [](const Node& n, SceneSpec& s) { s.offset = read_vector(n); },
        [](const SceneSpec& s) { return write_vector(s.offset); }},
+      {"two_sided", [](const Node& n, SceneSpec& s) { s.two_sided = n.boolean(); },
+       [](const SceneSpec& s) { return json(s.two_sided); }},
   });
   return fields;
 }

@@ -38,10 +38,10 @@ Scene load_scene(const SceneSpec& spec) {
                                    spec.offset[axis]));
     }
   }
-  if (!spec.gltf.empty()) return import_gltf(spec.gltf, spec.gltf_scene, spec.seed, spec.offset);
-
   Scene scene;
-  if (spec.procedural == "canyon") {
+  if (!spec.gltf.empty()) {
+    scene = import_gltf(spec.gltf, spec.gltf_scene, spec.seed, spec.offset);
+  } else if (spec.procedural == "canyon") {
     scene = make_canyon(spec.seed);
   } else if (spec.procedural == "plane") {
     scene = make_plane();
@@ -52,7 +52,10 @@ Scene load_scene(const SceneSpec& spec) {
                                           suggestion(spec.procedural, known))));
   }
   // The vertices stay as they are: a level at 1e6 m has the same floats as one at 0.
-  scene.origin += spec.offset;
+  if (spec.gltf.empty()) scene.origin += spec.offset;
+  if (spec.two_sided) {
+    for (Material& material : scene.materials) material.double_sided = true;
+  }
   return scene;
 }
 

@@ -90,6 +90,7 @@ struct SceneSpec {
   int gltf_scene = -1;               // which of the file's scenes; -1 is the file's default
   uint32_t seed = 1;                 // procedural generation and automatic camera paths
   glm::dvec3 offset{0};              // m, added to the whole level in double: the far-from-origin test; |component| <= 1e9
+  bool two_sided = false;            // every material is drawn from both sides: for levels whose winding is not reliable
 };
 
 // Throws UsageError (unknown name, bad file) with one line that names the file and the place in it.

@@ -53,7 +53,10 @@ Scene HandMadeScene::finish() const {
   }
   scene.near = 0.1f;
   scene.far = 1000;
-  scene.paths = {CameraPath{.name = "default", .keys = {{0, {0, 2, 10}, {0, 1, 0}}}}};
+  CameraPath path;
+  path.name = "default";
+  path.keys = {{0, {0, 2, 10}, {0, 1, 0}}};
+  scene.paths = {path};
   return scene;
 }
 

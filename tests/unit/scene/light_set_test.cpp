@@ -142,7 +142,7 @@ TEST(LightSet, IrradianceAtHalfTheRadiusIsAboutOneForEveryRadius) {
   for (const Light& light : set.base()) {
     double half = 0.5 * light.radius;
     double mean = (light.intensity.x + light.intensity.y + light.intensity.z) / 3.0;
-    EXPECT_NEAR(mean * 0.75 * 0.75 / (half * half), 2, 1e-4);
+    EXPECT_NEAR(mean * 0.9375 * 0.9375 / (half * half), 2, 1e-4);
     shades.insert(light.intensity.x / light.radius / light.radius);
   }
   EXPECT_GT(shades.size(), 5000u);

@@ -1,0 +1,161 @@
+// Runs: whole ones, repeated ones, shared ones, and those that were stopped.
+#include <csignal>
+#include <map>
+#include <set>
+
+#include "tests/end_to_end/program.h"
+
+namespace ml::test {
+namespace {
+
+using nlohmann::json;
+
+std::set<std::string> ids_of(const json& result) {
+  std::set<std::string> ids;
+  for (const json& item : result["cases"]) ids.insert(item["id"].get<std::string>());
+  return ids;
+}
+
+TEST(Run, IsWholeAndTheSameAgain) {
+  Folder folder;
+  const std::string config = write_config(
+      folder, small_config({{"outputs", {{"images", {0, 1}}, {"heatmaps", {1}}, {"trace", true}}},
+                            {"lights", {{"count", 200}, {"animate", "drift"}}}}));
+  std::map<std::string, std::string> files[2];
+  json results[2];
+  for (int i = 0; i < 2; ++i) {
+    const std::filesystem::path out = folder / ("out" + std::to_string(i));
+    Outcome outcome = manylights({"run", config, "--out", out.string(), "--validation", "--quiet"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    EXPECT_TRUE(outcome.error.empty()) << outcome.error;
+    results[i] = valid_result(out);
+    EXPECT_EQ(results[i]["complete"], true);
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
+      if (entry.path().extension() == ".exr" || entry.path().extension() == ".png")
+        files[i][entry.path().lexically_relative(out).string()] = text_of(entry.path());
+    EXPECT_TRUE(std::filesystem::exists(out / "trace.json"));
+  }
+  ASSERT_EQ(results[0]["cases"].size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    const json& one = results[0]["cases"][i];
+    EXPECT_EQ(one["counters"], results[1]["cases"][i]["counters"]);
+    for (const json& lost : one["counters"]["lost"]) EXPECT_EQ(lost, 0);
+    EXPECT_GT(one["counters"]["contributing"][0], 0);
+    for (const char* kind : {"images", "heatmaps"})
+      for (const json& name : one["files"][kind])
+        EXPECT_TRUE(files[0].contains(name.get<std::string>())) << name;
+  }
+  EXPECT_GE(files[0].size(), 8u);
+  EXPECT_EQ(files[0], files[1]) << "pictures differ between two runs";
+}
+
+TEST(Run, SharesAndFiltersCoverAllCasesOnce) {
+  Folder folder;
+  const std::string config =
+      write_config(folder, small_config({{"sweep", {{"lights.count", {10, 20, 30}}}}}));
+  std::set<std::string> all;
+  size_t cases = 0;
+  for (const char* shard : {"1/2", "2/2"}) {
+    const std::filesystem::path out = folder / ("shard" + std::string(1, shard[0]));
+    Outcome outcome = manylights({"run", config, "--out", out.string(), "--shard", shard, "--quiet"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    json result = valid_result(out);
+    cases += result["cases"].size();
+    all.merge(ids_of(result));
+  }
+  EXPECT_EQ(cases, 6u);
+  EXPECT_EQ(all.size(), 6u);
+  Outcome filtered = manylights(
+      {"run", config, "--out", (folder / "some").string(), "--filter", "20.*clustered", "--quiet"});
+  ASSERT_EQ(filtered.code, 0) << filtered.error;
+  std::set<std::string> some = ids_of(valid_result(folder / "some"));
+  ASSERT_EQ(some.size(), 1u);
+  EXPECT_TRUE(all.contains(*some.begin()));
+
+  Outcome dry = manylights({"run", config, "--out", (folder / "dry").string(), "--dry-run"});
+  EXPECT_EQ(dry.code, 0);
+  for (const std::string& id : all) EXPECT_NE(dry.out.find(id), std::string::npos) << id;
+  EXPECT_FALSE(std::filesystem::exists(folder / "dry"));
+}
+
+// A run of two setups with so many laps that it can be stopped between them, and what stops it: the result on
+// the disk has a case whose first lap is done.
+json long_config() {
+  return small_config({{"sweep", {{"lights.count", {20, 30}}}},
+                       {"measure", {{"warmup", 0}, {"repeats", 60}}},
+                       {"resolution", {160, 90}}});
+}
+
+std::function<int()> once_measured(const std::filesystem::path& result, size_t cases, int signal_number) {
+  return [=]() -> int {
+    if (!std::filesystem::exists(result)) return 0;
+    json document = json::parse(text_of(result), nullptr, false);
+    if (document.is_discarded() || document["cases"].size() < cases) return 0;
+    return document["cases"].back()["repeats_done"] >= 1 ? signal_number : 0;
+  };
+}
+
+void expect_resumed(const Folder& folder, const std::string& config) {
+  json before = valid_result(folder / "out");
+  EXPECT_EQ(before["complete"], false);
+  ASSERT_FALSE(before["cases"].empty());
+  std::map<std::string, json> finished;
+  for (const json& item : before["cases"])
+    if (item["repeats_done"] == 60) finished[item["id"]] = item;
+  Outcome outcome = manylights({"run", config, "--out", (folder / "out").string(), "--resume", "--quiet"});
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  json after = valid_result(folder / "out");
+  EXPECT_EQ(after["complete"], true);
+  EXPECT_EQ(ids_of(after).size(), 4u);
+  EXPECT_EQ(after["cases"].size(), 4u);
+  for (const json& item : after["cases"]) {
+    EXPECT_EQ(item["repeats_done"], 60);
+    if (auto kept = finished.find(item["id"]); kept != finished.end())
+      EXPECT_EQ(item, kept->second) << "a finished case was measured again";
+  }
+  EXPECT_FALSE(finished.empty());
+}
+
+TEST(Run, KilledInTheMiddleCanBeResumed) {
+  Folder folder;
+  const std::string config = write_config(folder, long_config());
+  // Killed in the second setup: the first one's two cases are done.
+  Outcome outcome = manylights({"run", config, "--out", (folder / "out").string(), "--quiet"},
+                               {.watch = once_measured(folder / "out" / "result.json", 3, SIGKILL)});
+  ASSERT_EQ(outcome.signal, SIGKILL);
+  expect_resumed(folder, config);
+  // Another configuration's result is not resumed.
+  const std::string other = write_config(folder, small_config(), "other.json");
+  expect_error(manylights({"run", other, "--out", (folder / "out").string(), "--resume"}), 2,
+               {"another configuration"});
+  EXPECT_EQ(valid_result(folder / "out")["complete"], true);
+}
+
+TEST(Run, InterruptedRunKeepsWhatWasMeasured) {
+  for (int number : {SIGINT, SIGTERM}) {
+    Folder folder;
+    const std::string config = write_config(folder, long_config());
+    Outcome outcome = manylights({"run", config, "--out", (folder / "out").string(), "--quiet"},
+                                 {.watch = once_measured(folder / "out" / "result.json", 3, number)});
+    expect_error(outcome, 4, {"interrupted", "kept"});
+    if (number == SIGINT)
+      expect_resumed(folder, config);
+    else
+      EXPECT_EQ(valid_result(folder / "out")["complete"], false);
+  }
+}
+
+TEST(Run, DoesNotDependOnTheWorkingDirectory) {
+  Folder folder;
+  write_config(folder, small_config());
+  Outcome outcome = manylights({"run", "config.json", "--out", "here", "--quiet"}, {.folder = folder.path()});
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(valid_result(folder / "here")["complete"], true);
+  // Shipped configurations are found from anywhere.
+  Outcome dry = manylights({"run", "quick", "--dry-run"}, {.folder = "/"});
+  EXPECT_EQ(dry.code, 0) << dry.error;
+  EXPECT_NE(dry.out.find("canyon-8192"), std::string::npos) << dry.out;
+}
+
+}  // namespace
+}  // namespace ml::test

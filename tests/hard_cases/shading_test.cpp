@@ -1,0 +1,95 @@
+// Shading: singular places, extreme values, far from the origin.
+#include <cmath>
+
+#include "harness/accuracy/image_metrics.h"
+#include "tests/hard_cases/hard_cases.h"
+
+namespace ml::test {
+namespace {
+
+constexpr uint32_t width = 65, height = 37;
+
+TEST_F(HardCases, Case32_LightExactlyOnTheSurfacePoint) {
+  Exactness check(floor_at({0, 0, 0}, 20), width, height);
+  const Camera camera = camera_at({0, 3, 2}, {0, 0, 0}, width, height);
+  check.expect_exact(camera, {});
+  // Lights where the device itself sees the surface points: some coincide with them to the last bit.
+  std::vector<float> position = check.frame().read_aov(DeviceFrame::Aov::position);
+  std::vector<Light> lights;
+  for (size_t pixel = 0; pixel < position.size() / 4; pixel += 61) {
+    glm::dvec3 at = glm::dvec3(camera.position) +
+                    glm::dvec3(position[4 * pixel], position[4 * pixel + 1], position[4 * pixel + 2]);
+    for (double above : {0.0, 1e-7, 1e-5, 0.01}) lights.push_back(omni(at + glm::dvec3(0, above, 0), 0.5f));
+  }
+  Seen seen = check.expect_exact(camera, lights);
+  EXPECT_GT(seen.contributing(), 0u);
+}
+
+TEST_F(HardCases, Case34_RoughnessZeroAndGrazingViews) {
+  HandMadeScene made;
+  Material mirror;
+  mirror.name = "mirror";
+  mirror.roughness = 0;
+  mirror.metallic = 1;
+  mirror.base_color = glm::vec4(1);
+  const uint32_t smooth = made.material(mirror);
+  made.rectangle({-50, 0, 50}, {100, 0, 0}, {0, 0, -100}, smooth);
+  made.rectangle({-1, 0, -4}, {2, 0, 0}, {0, 3, 0}, smooth);
+  Exactness check(made.finish(), width, height);
+  std::vector<Light> lights = scattered(60, {-6, 0, -9}, {6, 4, 6}, 1, 12, 34);
+  // Mirrored at the floor exactly towards the eye: N.H is 1.
+  for (int i = 0; i < 20; ++i) lights.push_back(omni({0, 0.001 + 0.05 * i, -0.3 * i}, 10));
+  lights.push_back(omni({0, 2, 5}, 50));  // at the eye: L and V are the same
+  for (double height_of_eye : {2.0, 0.01})
+    check.expect_exact(camera_at({0, height_of_eye, 5}, {0, 0, 0}, width, height), lights);
+  // From above, V = N.
+  lights.push_back(omni({0, 9, 0}, 50));
+  check.expect_exact(camera_at({0, 9, 0}, {0, 0, 0}, width, height), lights);
+}
+
+TEST_F(HardCases, Case36_FarFromTheOriginIsTheSamePicture) {
+  // Steps of a float at 10^7 m are 1 m: a level of whole metres is the same level there, moved in double.
+  constexpr uint32_t w = 64, h = 36;
+  std::vector<Light> lights = scattered(100, {-8, 0, -8}, {8, 4, 8}, 0.5f, 8, 36);
+  std::vector<Picture> pictures;
+  for (double offset : {0.0, 1e5, 1e6, 1e7}) {
+    SCOPED_TRACE(offset);
+    const auto move = glm::vec3(static_cast<float>(offset));
+    HandMadeScene made;
+    made.rectangle(move + glm::vec3(-16, 0, 16), {32, 0, 0}, {0, 0, -32});
+    made.rectangle(move + glm::vec3(-4, 0, -8), {8, 0, 0}, {0, 8, 0});
+    Exactness check(made.finish(), w, h);
+    std::vector<Light> moved = lights;
+    // Lights are made camera-relative in double: their places keep the bits that the subtraction leaves.
+    for (size_t i = 0; i < moved.size(); ++i) {
+      moved[i].position = glm::round(moved[i].position * 16.0) / 16.0;
+      moved[i].position += glm::dvec3(offset);
+    }
+    Camera camera = Camera::look_at(glm::dvec3(0, 5, 12), {0, 1, 0},
+                                    Projection::perspective(60 * degrees, 16.0f / 9, 0.1f, 200));
+    camera.position += move;
+    pictures.push_back(
+        check.expect_exact(camera, moved, {{.tile = 16}, {.tile = 7, .refinement = true}}, 4).image);
+    EXPECT_EQ(compare_images(pictures.back(), pictures.front()).differing_bits, 0u);
+  }
+}
+
+TEST_F(HardCases, Case38_IntensitiesFromMillionthsToBillions) {
+  Exactness check(yard(), width, height);
+  std::vector<Light> lights = scattered(200, {-30, -1, -40}, {30, 12, 14}, 0.5f, 15, 38);
+  for (size_t i = 0; i < lights.size(); ++i)
+    lights[i].intensity = glm::vec3(1, 0.5f, 0.25f) * std::pow(10.0f, static_cast<float>(i % 16) - 6);
+  check.expect_exact(camera_at({0, 3, 14}, {0, 1, -10}, width, height), lights);
+}
+
+TEST_F(HardCases, Case38_SumOfManyTinyContributions) {
+  Exactness check(yard(), 16, 9);
+  std::vector<Light> lights;
+  for (int i = 0; i < 65536; ++i)
+    lights.push_back(omni({0.0001 * (i % 256), 4 + 0.0001 * (i / 256), 4}, 40, 1e-6f));
+  lights.push_back(omni({0, 5, 3}, 40, 1));
+  check.expect_exact(camera_at({0, 3, 14}, {0, 1, -10}, 16, 9), lights, {{.tile = 16}}, 4);
+}
+
+}  // namespace
+}  // namespace ml::test
