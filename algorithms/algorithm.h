@@ -1,9 +1,9 @@
 // The one interface behind which every many-light algorithm runs.
 //
-// A frame is three calls: prepare() on the CPU, cull() and the shading pass on the GPU. prepare() sees no Vulkan and writes plain
-// memory that the caller lends, so that it can be tested and benchmarked without a device. The shading loop is the harness's own;
-// an algorithm puts its light cursor into it (`light_cursor.glsl` in its folder), so times differ by how lights are found and by
-// nothing else.
+// A frame is three calls: prepare() on the CPU, cull() and the shading pass on the GPU. prepare() sees no
+// Vulkan and writes plain memory that the caller lends, so that it can be tested and benchmarked without a
+// device. The shading loop is the harness's own; an algorithm puts its light cursor into it
+// (`light_cursor.glsl` in its folder), so times differ by how lights are found and by nothing else.
 #pragma once
 
 #include <cstddef>
@@ -34,21 +34,23 @@ struct AlgorithmInfo {
   std::string summary;  // one line
   std::string paper;    // author, title, year; "" for the reference algorithms
   bool exact = true;    // false: stochastic
-  uint32_t max_lights = 0;       // more lights than this are a configuration error; 0: no limit of its own (24-bit ids)
+  uint32_t max_lights =
+      0;  // more lights than this are a configuration error; 0: no limit of its own (24-bit ids)
   bool needs_contributing_lists = false;  // `ideal`: wants the per-pixel lists of contributing lights
-  bool reference_only = false;   // too slow for ordinary runs: left out of "all"
+  bool reference_only = false;            // too slow for ordinary runs: left out of "all"
   std::vector<std::string> cpu_stages, gpu_stages;  // span names it writes, in order
   std::vector<std::string> shapes;                  // light shapes it bounds
 };
 
 // The lights of one frame, camera-relative (world axes), rounded to float once and the same for CPU and GPU.
-// Structure of arrays, so that bounds can be computed many at a time; all spans have the same length and 64 readable bytes of padding
-// behind their last element.
+// Structure of arrays, so that bounds can be computed many at a time; all spans have the same length and 64
+// readable bytes of padding behind their last element.
 struct FrameLights {
-  std::span<const float> x, y, z;   // m
-  std::span<const float> radius;    // m, > 0
-  std::span<const gpu_data::LightCore> core;    // the same lights as the GPU has them
-  std::span<const gpu_data::LightExtra> extra;  // spots: axis and cone; same length as core, or empty when no light needs it
+  std::span<const float> x, y, z;             // m
+  std::span<const float> radius;              // m, > 0
+  std::span<const gpu_data::LightCore> core;  // the same lights as the GPU has them
+  std::span<const gpu_data::LightExtra>
+      extra;  // spots: axis and cone; same length as core, or empty when no light needs it
   size_t count() const { return x.size(); }
 };
 
@@ -60,13 +62,14 @@ struct FrameInput {
   Threads* threads = nullptr;  // never null in prepare()
 };
 
-// Memory that prepare() fills and the GPU reads. Slots are the algorithm's own small numbers from 0, in the order of
-// Algorithm::buffers().
+// Memory that prepare() fills and the GPU reads. Slots are the algorithm's own small numbers from 0, in the
+// order of Algorithm::buffers().
 class UploadMemory {
  public:
   virtual ~UploadMemory() = default;
-  // At least `bytes` writable bytes, 64-byte aligned; contents undefined. Valid until the next prepare(). Grows rarely and never
-  // shrinks. Throws SystemError, naming algorithm, slot and limit, when the device cannot hold it.
+  // At least `bytes` writable bytes, 64-byte aligned; contents undefined. Valid until the next prepare().
+  // Grows rarely and never shrinks. Throws SystemError, naming algorithm, slot and limit, when the device
+  // cannot hold it.
   virtual std::span<std::byte> map(uint32_t slot, size_t bytes) = 0;
   // The most bytes that one slot can hold.
   virtual size_t limit() const = 0;
@@ -74,9 +77,10 @@ class UploadMemory {
 
 // Exact numbers of one prepare().
 struct PrepareCounters {
-  uint64_t in_frustum = 0;   // lights left after culling against the view
-  uint64_t list_bytes = 0;   // bytes of the structures that the GPU reads, light data apart unless duplicated
-  uint64_t overflow_tiles = 0, overflow_lights = 0;  // demand beyond the algorithm's caps; 0 for lossless ones
+  uint64_t in_frustum = 0;  // lights left after culling against the view
+  uint64_t list_bytes = 0;  // bytes of the structures that the GPU reads, light data apart unless duplicated
+  uint64_t overflow_tiles = 0,
+           overflow_lights = 0;  // demand beyond the algorithm's caps; 0 for lossless ones
 };
 
 // A SPIR-V module that the build put into the program.
@@ -92,7 +96,8 @@ class Algorithm {
  public:
   virtual ~Algorithm() = default;
 
-  // CPU only. Reuses its memory from frame to frame; the same input gives the same bytes for any number of threads.
+  // CPU only. Reuses its memory from frame to frame; the same input gives the same bytes for any number of
+  // threads.
   virtual void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) = 0;
   virtual PrepareCounters counters() const = 0;
 

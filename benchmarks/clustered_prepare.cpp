@@ -1,7 +1,8 @@
-// prepare() of clustered shading: the fast path against plain scalar code as the papers describe it, 1920x1080, 48 px tiles, 16 slices.
+// prepare() of clustered shading: the fast path against plain scalar code as the papers describe it,
+// 1920x1080, 48 px tiles, 16 slices.
 //
-// Two light sets: `view` has every light in the view, at depths spread as the slices are, with radii that give about 4.5 froxels a
-// light; `canyon` is the canyon scene at its overlook, where most lights are culled.
+// Two light sets: `view` has every light in the view, at depths spread as the slices are, with radii that
+// give about 4.5 froxels a light; `canyon` is the canyon scene at its overlook, where most lights are culled.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -22,7 +23,8 @@ struct Input {
   Threads threads;
   FrameLightStorage storage;
   FrameInput frame;
-  Input(const std::vector<Light>& lights, const Camera& camera, unsigned thread_count) : threads(thread_count) {
+  Input(const std::vector<Light>& lights, const Camera& camera, unsigned thread_count)
+      : threads(thread_count) {
     storage.fill(lights, camera.position);
     frame.view = view_data(camera, width, height, static_cast<uint32_t>(lights.size()));
     frame.lights = storage.lights();
@@ -66,8 +68,9 @@ ClusterSettings settings_for(bool refinement) {
 }
 
 void report(benchmark::State& state, size_t lights, size_t entries) {
-  state.counters["ns_per_light"] = benchmark::Counter(static_cast<double>(lights),
-                                                      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["ns_per_light"] =
+      benchmark::Counter(static_cast<double>(lights),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.counters["froxels_per_light"] = static_cast<double>(entries) / static_cast<double>(lights);
 }
 
@@ -89,15 +92,31 @@ void fast(benchmark::State& state, MakeInput make, unsigned threads, bool refine
   for (auto _ : state) lists.build(input->frame, settings, uint64_t{1} << 28, spans);
   report(state, input->frame.lights.count(), lists.indices().size());
   for (const auto& [name, ms] : spans.sums())
-    state.counters[name + "_ns_per_light"] = ms * 1e6 / static_cast<double>(state.iterations()) / static_cast<double>(state.range(0));
+    state.counters[name + "_ns_per_light"] =
+        ms * 1e6 / static_cast<double>(state.iterations()) / static_cast<double>(state.range(0));
 }
 
-BENCHMARK_CAPTURE(plain_scalar, view, view_input)->RangeMultiplier(2)->Range(8192, 65536)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(fast, view, view_input, 1u, false)->RangeMultiplier(2)->Range(8192, 65536)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(fast, view_two_threads, view_input, 2u, false)->Arg(65536)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(plain_scalar, view, view_input)
+    ->RangeMultiplier(2)
+    ->Range(8192, 65536)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fast, view, view_input, 1u, false)
+    ->RangeMultiplier(2)
+    ->Range(8192, 65536)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fast, view_two_threads, view_input, 2u, false)
+    ->Arg(65536)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK_CAPTURE(fast, view_refined, view_input, 1u, true)->Arg(65536)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(plain_scalar, canyon, canyon_input)->RangeMultiplier(2)->Range(8192, 65536)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(fast, canyon, canyon_input, 1u, false)->RangeMultiplier(2)->Range(8192, 65536)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plain_scalar, canyon, canyon_input)
+    ->RangeMultiplier(2)
+    ->Range(8192, 65536)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fast, canyon, canyon_input, 1u, false)
+    ->RangeMultiplier(2)
+    ->Range(8192, 65536)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

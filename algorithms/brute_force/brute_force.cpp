@@ -12,7 +12,9 @@ class BruteForce final : public Algorithm {
  public:
   explicit BruteForce(const Parameters& parameters) : fp64_(parameters.choice("precision") == "fp64") {}
 
-  void prepare(const FrameInput& frame, UploadMemory&, Spans&) override { counters_.in_frustum = frame.lights.count(); }
+  void prepare(const FrameInput& frame, UploadMemory&, Spans&) override {
+    counters_.in_frustum = frame.lights.count();
+  }
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {}; }
   ShadeShaders shade_shaders() const override {
@@ -32,10 +34,13 @@ AlgorithmEntry brute_force_entry() {
   entry.info.name = "brute_force";
   entry.info.summary = "every light for every pixel: the reference";
   entry.info.reference_only = true;
+  // The software driver ends a shader's loops after 65,535 turns; the shading loop takes four lights a turn.
+  entry.info.max_lights = 262140;
   entry.info.gpu_stages = {"shade"};
   entry.info.shapes = {"omni", "spot"};
-  entry.parameters = {ParameterInfo::choice("precision", "fp32", {"fp32", "fp64"},
-                                            "number type of the shading sums; fp64 needs a device with 64-bit floats")};
+  entry.parameters = {
+      ParameterInfo::choice("precision", "fp32", {"fp32", "fp64"},
+                            "number type of the shading sums; fp64 needs a device with 64-bit floats")};
   entry.create = [](const Parameters& parameters) { return std::make_unique<BruteForce>(parameters); };
   return entry;
 }

@@ -1,5 +1,5 @@
-// CPU stages of clustered binning. Culling and bounding have two forms that give the same bits: plain scalar code, the readable reference,
-// and vector code (Highway), the one that runs.
+// CPU stages of clustered binning. Culling and bounding have two forms that give the same bits: plain scalar
+// code, the readable reference, and vector code (Highway), the one that runs.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,11 @@
 
 namespace ml {
 
-// Lights in front of the camera and not outside a side plane of the view, in view space, in ascending order of index.
+// Lights in front of the camera and not outside a side plane of the view, in view space, in ascending order
+// of index.
 struct VisibleLights {
-  // View-space centre (m), widened radius (m), light index; the first `count` elements are in use, vector padding behind them.
+  // View-space centre (m), widened radius (m), light index; the first `count` elements are in use, vector
+  // padding behind them.
   std::vector<float> x, y, z, radius;
   std::vector<uint32_t> index;
   size_t count = 0;
@@ -33,7 +35,8 @@ struct FroxelPairs {
   size_t count = 0;
 };
 
-// Froxel numbers of a box relative to its first, for boxes of up to 4 x 4 x 4: [columns-1][rows-1][slices-1][64].
+// Froxel numbers of a box relative to its first, for boxes of up to 4 x 4 x 4:
+// [columns-1][rows-1][slices-1][64].
 class BoxOffsets {
  public:
   static constexpr uint32_t max_extent = 4, stride = 64;
@@ -48,18 +51,20 @@ class BoxOffsets {
 };
 
 namespace scalar {
-// The exact 2D bounds of the clipped, projected ball (Mara & McGuire 2013) and its depth extent, as froxels; empty when no pixel centre
-// of the picture can be inside. Ball in view space, already widened.
+// The exact 2D bounds of the clipped, projected ball (Mara & McGuire 2013) and its depth extent, as froxels;
+// empty when no pixel centre of the picture can be inside. Ball in view space, already widened.
 FroxelBox bound_ball(const BoundsConstants& constants, float x, float y, float z, float radius);
-void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants, VisibleLights& visible);
+void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
+          VisibleLights& visible);
 void bound(const VisibleLights& visible, const BoundsConstants& constants, LightBoxes& boxes);
 }  // namespace scalar
 
 namespace simd {
-void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants, VisibleLights& visible);
+void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
+          VisibleLights& visible);
 void bound(const VisibleLights& visible, const BoundsConstants& constants, LightBoxes& boxes);
-void emit(const VisibleLights& visible, const LightBoxes& boxes, const FroxelGrid& grid, const BoxOffsets& offsets,
-          FroxelPairs& pairs);
+void emit(const VisibleLights& visible, const LightBoxes& boxes, const FroxelGrid& grid,
+          const BoxOffsets& offsets, FroxelPairs& pairs);
 // The instruction set that is used on this machine, as Highway names it.
 const char* target_name();
 }  // namespace simd

@@ -14,7 +14,8 @@ struct Interval {
   float low, high;
 };
 
-// Slopes between which the ball's circle in the plane of one axis and depth is seen, of the part at or beyond the near plane.
+// Slopes between which the ball's circle in the plane of one axis and depth is seen, of the part at or beyond
+// the near plane.
 Interval perspective_interval(float a, float z, float radius, float near) {
   float distance2 = a * a + z * z;
   float tangent2 = distance2 - radius * radius;
@@ -22,8 +23,8 @@ Interval perspective_interval(float a, float z, float radius, float near) {
   float behind = z - near;
   float chord2 = radius * radius - behind * behind;
   float chord = std::sqrt(chord2 > 0 ? chord2 : 0);
-  // Tangent points, times distance: where such a point is nearer than the near plane (or there is none, the camera being inside), the
-  // circle's widest visible point is where it crosses the near plane.
+  // Tangent points, times distance: where such a point is nearer than the near plane (or there is none, the
+  // camera being inside), the circle's widest visible point is where it crosses the near plane.
   float high_a = a * tangent + z * radius, high_z = z * tangent - a * radius;
   float low_a = a * tangent - z * radius, low_z = z * tangent + a * radius;
   bool high_seen = tangent2 > 0 && high_z * tangent >= near * distance2;
@@ -76,8 +77,10 @@ namespace scalar {
 FroxelBox bound_ball(const BoundsConstants& c, float x, float y, float z, float radius) {
   const gpu_data::ViewData& view = c.view;
   bool orthographic = view.orthographic != 0;
-  Interval across = orthographic ? Interval{x - radius, x + radius} : perspective_interval(x, z, radius, view.near);
-  Interval up = orthographic ? Interval{y - radius, y + radius} : perspective_interval(y, z, radius, view.near);
+  Interval across =
+      orthographic ? Interval{x - radius, x + radius} : perspective_interval(x, z, radius, view.near);
+  Interval up =
+      orthographic ? Interval{y - radius, y + radius} : perspective_interval(y, z, radius, view.near);
   // First and last pixel whose centre is inside; rows grow downwards.
   float column0 = std::ceil((across.low - c.left_edge) * c.x_pixels_per_unit - (0.5f + widen_pixels));
   float column1 = std::floor((across.high - c.left_edge) * c.x_pixels_per_unit - (0.5f - widen_pixels));
@@ -89,17 +92,25 @@ FroxelBox bound_ball(const BoundsConstants& c, float x, float y, float z, float 
   row1 = std::min(row1, c.last_row_pixel);
   if (!(column0 <= column1 && row0 <= row1)) return {};
   auto tile = [&](float pixel) { return static_cast<uint16_t>((pixel + 0.5f) * c.inverse_tile); };
-  auto slice = [&](float depth) { return static_cast<uint16_t>(gpu_data::slice_of_depth(depth, c.grid.mapping)); };
-  return {tile(column0), tile(column1), tile(row0), tile(row1), slice((z - radius) * 0.99999f), slice((z + radius) * 1.00001f)};
+  auto slice = [&](float depth) {
+    return static_cast<uint16_t>(gpu_data::slice_of_depth(depth, c.grid.mapping));
+  };
+  return {tile(column0),
+          tile(column1),
+          tile(row0),
+          tile(row1),
+          slice((z - radius) * 0.99999f),
+          slice((z + radius) * 1.00001f)};
 }
 
-void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& c, VisibleLights& visible) {
+void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& c,
+          VisibleLights& visible) {
   visible.reserve(end - begin);
   visible.count = 0;
   const gpu_data::ViewData& v = c.view;
   bool orthographic = v.orthographic != 0;
-  // A side plane at window coordinate e: inside where p - e * z >= 0 (perspective) or p - e >= 0 (orthographic), p along the axis;
-  // its normal has length sqrt(1 + e^2) or 1.
+  // A side plane at window coordinate e: inside where p - e * z >= 0 (perspective) or p - e >= 0
+  // (orthographic), p along the axis; its normal has length sqrt(1 + e^2) or 1.
   auto outside = [&](float p, float z, float radius, float edge, float sign) {
     float length = orthographic ? 1.0f : std::sqrt(1.0f + edge * edge);
     float distance = orthographic ? p - edge : p - edge * z;
@@ -110,7 +121,8 @@ void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConst
     float x = wx * v.right.x + wy * v.right.y + wz * v.right.z;
     float y = wx * v.up.x + wy * v.up.y + wz * v.up.z;
     float z = wx * v.forward.x + wy * v.forward.y + wz * v.forward.z;
-    float radius = lights.radius[i] * widen_relative + widen_absolute * (std::abs(wx) + std::abs(wy) + std::abs(wz));
+    float radius =
+        lights.radius[i] * widen_relative + widen_absolute * (std::abs(wx) + std::abs(wy) + std::abs(wz));
     if (z + radius < v.near) continue;
     if (orthographic && z - radius > v.far) continue;
     if (outside(x, z, radius, v.left_edge, 1) || outside(x, z, radius, v.right_edge, -1)) continue;

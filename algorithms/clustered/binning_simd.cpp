@@ -1,5 +1,6 @@
-// The vector form of the binning stages: the same operations in the same order as binning_scalar.cpp, so the same bits, on as many
-// lights at once as the machine's registers hold. Compiled once for every instruction set; the best one is chosen at run time.
+// The vector form of the binning stages: the same operations in the same order as binning_scalar.cpp, so the
+// same bits, on as many lights at once as the machine's registers hold. Compiled once for every instruction
+// set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "algorithms/clustered/binning_simd.cpp"
 #include <hwy/foreach_target.h>
@@ -35,8 +36,8 @@ HWY_INLINE VF slice_log2(VF z) {
   VU mantissa = hn::Add(hn::And(shifted, hn::Set(du, 0x007fffffu)), hn::Set(du, 0x3f3504f3u));
   VF x = hn::Sub(hn::BitCast(df, mantissa), constant(1.0f));
   VF p = constant(0.123109683f);
-  for (float coefficient : {-0.205861881f, 0.216078222f, -0.239169881f, 0.287903249f, -0.360693276f, 0.480910748f, -0.721347451f,
-                            1.44269502f})
+  for (float coefficient : {-0.205861881f, 0.216078222f, -0.239169881f, 0.287903249f, -0.360693276f,
+                            0.480910748f, -0.721347451f, 1.44269502f})
     p = hn::Add(hn::Mul(p, x), constant(coefficient));
   return hn::Add(exponent, hn::Mul(p, x));
 }
@@ -44,31 +45,40 @@ HWY_INLINE VF slice_log2(VF z) {
 // Same as gpu_data::slice_of_depth.
 HWY_INLINE VU slice_of_depth(VF z, const gpu_data::SliceMapping& mapping) {
   MF positive = hn::Gt(z, constant(1e-30f));
-  VF slice = hn::Add(hn::Mul(hn::Sub(slice_log2(z), constant(mapping.log_min)), constant(mapping.scale)), constant(1.0f));
+  VF slice = hn::Add(hn::Mul(hn::Sub(slice_log2(z), constant(mapping.log_min)), constant(mapping.scale)),
+                     constant(1.0f));
   slice = hn::IfThenElseZero(hn::And(positive, hn::Gt(slice, hn::Zero(df))), slice);
   slice = hn::Min(slice, constant(static_cast<float>(mapping.count - 1)));
   return hn::BitCast(du, hn::ConvertTo(ds, slice));
 }
 
-void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& c, VisibleLights& visible) {
+void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& c,
+          VisibleLights& visible) {
   visible.reserve(end - begin);
   const gpu_data::ViewData& v = c.view;
   const bool orthographic = v.orthographic != 0;
   auto plane_length = [&](float edge) { return orthographic ? 1.0f : std::sqrt(1.0f + edge * edge); };
-  const VF left_length = constant(plane_length(v.left_edge)), right_length = constant(plane_length(v.right_edge));
-  const VF bottom_length = constant(plane_length(v.bottom_edge)), top_length = constant(plane_length(v.top_edge));
+  const VF left_length = constant(plane_length(v.left_edge)),
+           right_length = constant(plane_length(v.right_edge));
+  const VF bottom_length = constant(plane_length(v.bottom_edge)),
+           top_length = constant(plane_length(v.top_edge));
   const size_t lanes = hn::Lanes(df);
   size_t count = 0;
   for (size_t i = begin; i < end; i += lanes) {
-    VF wx = hn::LoadU(df, &lights.x[0] + i), wy = hn::LoadU(df, &lights.y[0] + i), wz = hn::LoadU(df, &lights.z[0] + i);
+    VF wx = hn::LoadU(df, &lights.x[0] + i), wy = hn::LoadU(df, &lights.y[0] + i),
+       wz = hn::LoadU(df, &lights.z[0] + i);
     auto along = [&](const glm::vec3& axis) {
-      return hn::Add(hn::Add(hn::Mul(wx, constant(axis.x)), hn::Mul(wy, constant(axis.y))), hn::Mul(wz, constant(axis.z)));
+      return hn::Add(hn::Add(hn::Mul(wx, constant(axis.x)), hn::Mul(wy, constant(axis.y))),
+                     hn::Mul(wz, constant(axis.z)));
     };
     VF x = along(v.right), y = along(v.up), z = along(v.forward);
-    VF radius = hn::Add(hn::Mul(hn::LoadU(df, &lights.radius[0] + i), constant(widen_relative)),
-                        hn::Mul(constant(widen_absolute), hn::Add(hn::Add(hn::Abs(wx), hn::Abs(wy)), hn::Abs(wz))));
+    VF radius =
+        hn::Add(hn::Mul(hn::LoadU(df, &lights.radius[0] + i), constant(widen_relative)),
+                hn::Mul(constant(widen_absolute), hn::Add(hn::Add(hn::Abs(wx), hn::Abs(wy)), hn::Abs(wz))));
     VF minus_radius = hn::Neg(radius);
-    auto distance = [&](VF p, float edge) { return hn::Sub(p, orthographic ? constant(edge) : hn::Mul(constant(edge), z)); };
+    auto distance = [&](VF p, float edge) {
+      return hn::Sub(p, orthographic ? constant(edge) : hn::Mul(constant(edge), z));
+    };
     MF out = hn::Lt(hn::Add(z, radius), constant(v.near));
     if (orthographic) out = hn::Or(out, hn::Gt(hn::Sub(z, radius), constant(v.far)));
     out = hn::Or(out, hn::Lt(distance(x, v.left_edge), hn::Mul(minus_radius, left_length)));
@@ -76,7 +86,8 @@ void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConst
     out = hn::Or(out, hn::Lt(distance(y, v.bottom_edge), hn::Mul(minus_radius, bottom_length)));
     out = hn::Or(out, hn::Lt(hn::Neg(distance(y, v.top_edge)), hn::Mul(minus_radius, top_length)));
     MF keep = hn::AndNot(out, hn::FirstN(df, end - i));
-    // Compressed in a register and stored whole: storing through a mask is microcoded, tens of times slower, on some processors.
+    // Compressed in a register and stored whole: storing through a mask is microcoded, tens of times slower,
+    // on some processors.
     hn::StoreU(hn::Compress(x, keep), df, &visible.x[count]);
     hn::StoreU(hn::Compress(y, keep), df, &visible.y[count]);
     hn::StoreU(hn::Compress(z, keep), df, &visible.z[count]);
@@ -111,7 +122,8 @@ HWY_INLINE Interval perspective_interval(VF a, VF z, VF radius, VF near) {
   MF low_seen = hn::And(outside, hn::Ge(hn::Mul(low_z, tangent), limit));
   // One division a side: numerator and denominator are chosen first.
   VF low = hn::Div(hn::IfThenElse(low_seen, low_a, hn::Sub(a, chord)), hn::IfThenElse(low_seen, low_z, near));
-  VF high = hn::Div(hn::IfThenElse(high_seen, high_a, hn::Add(a, chord)), hn::IfThenElse(high_seen, high_z, near));
+  VF high =
+      hn::Div(hn::IfThenElse(high_seen, high_a, hn::Add(a, chord)), hn::IfThenElse(high_seen, high_z, near));
   return {low, high};
 }
 
@@ -132,7 +144,9 @@ void bound_all(const VisibleLights& visible, const BoundsConstants& c, LightBoxe
       across = perspective_interval(x, z, radius, near);
       up = perspective_interval(y, z, radius, near);
     }
-    auto pixel = [&](VF window, float edge, float scale) { return hn::Mul(hn::Sub(window, constant(edge)), constant(scale)); };
+    auto pixel = [&](VF window, float edge, float scale) {
+      return hn::Mul(hn::Sub(window, constant(edge)), constant(scale));
+    };
     VF column0 = hn::Ceil(hn::Sub(pixel(across.low, c.left_edge, c.x_pixels_per_unit), before));
     VF column1 = hn::Floor(hn::Sub(pixel(across.high, c.left_edge, c.x_pixels_per_unit), after));
     VF row0 = hn::Ceil(hn::Sub(pixel(up.high, c.top_edge, c.y_pixels_per_unit), before));
@@ -143,7 +157,8 @@ void bound_all(const VisibleLights& visible, const BoundsConstants& c, LightBoxe
     row1 = hn::Min(row1, constant(c.last_row_pixel));
     MF kept = hn::And(hn::Le(column0, column1), hn::Le(row0, row1));
     auto tile = [&](VF p) {
-      return hn::BitCast(du, hn::ConvertTo(ds, hn::IfThenElseZero(kept, hn::Mul(hn::Add(p, half_tile), inverse_tile))));
+      return hn::BitCast(
+          du, hn::ConvertTo(ds, hn::IfThenElseZero(kept, hn::Mul(hn::Add(p, half_tile), inverse_tile))));
     };
     VU x0 = tile(column0), x1 = tile(column1), y0 = tile(row0), y1 = tile(row1);
     VU z0 = slice_of_depth(hn::Mul(hn::Sub(z, radius), constant(0.99999f)), c.grid.mapping);
@@ -159,12 +174,14 @@ void bound_all(const VisibleLights& visible, const BoundsConstants& c, LightBoxe
 
 void bound(const VisibleLights& visible, const BoundsConstants& c, LightBoxes& boxes) {
   boxes.reserve(visible.count);
-  if (c.view.orthographic) bound_all<true>(visible, c, boxes);
-  else bound_all<false>(visible, c, boxes);
+  if (c.view.orthographic)
+    bound_all<true>(visible, c, boxes);
+  else
+    bound_all<false>(visible, c, boxes);
 }
 
-void emit(const VisibleLights& visible, const LightBoxes& boxes, const FroxelGrid& grid, const BoxOffsets& offsets,
-          FroxelPairs& pairs) {
+void emit(const VisibleLights& visible, const LightBoxes& boxes, const FroxelGrid& grid,
+          const BoxOffsets& offsets, FroxelPairs& pairs) {
   const size_t lanes = hn::Lanes(du);
   uint32_t* froxel = pairs.froxel.data();
   uint32_t* light = pairs.light.data();
@@ -217,14 +234,15 @@ HWY_EXPORT(bound);
 HWY_EXPORT(emit);
 HWY_EXPORT(target_name);
 
-void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants, VisibleLights& visible) {
+void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
+          VisibleLights& visible) {
   HWY_DYNAMIC_DISPATCH(cull)(lights, begin, end, constants, visible);
 }
 void bound(const VisibleLights& visible, const BoundsConstants& constants, LightBoxes& boxes) {
   HWY_DYNAMIC_DISPATCH(bound)(visible, constants, boxes);
 }
-void emit(const VisibleLights& visible, const LightBoxes& boxes, const FroxelGrid& grid, const BoxOffsets& offsets,
-          FroxelPairs& pairs) {
+void emit(const VisibleLights& visible, const LightBoxes& boxes, const FroxelGrid& grid,
+          const BoxOffsets& offsets, FroxelPairs& pairs) {
   HWY_DYNAMIC_DISPATCH(emit)(visible, boxes, grid, offsets, pairs);
 }
 const char* target_name() {

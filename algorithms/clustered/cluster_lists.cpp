@@ -10,27 +10,33 @@ namespace ml {
 namespace {
 
 [[noreturn]] void too_many(uint64_t entries, uint64_t limit) {
-  throw SystemError(fmt::format("clustered: the froxel lists would hold {} entries, the device's buffer {}; use fewer lights, larger "
-                                "tiles or fewer slices",
-                                entries, limit));
+  throw SystemError(fmt::format(
+      "clustered: the froxel lists would hold {} entries, the device's buffer {}; use fewer lights, larger "
+      "tiles or fewer slices",
+      entries, limit));
 }
 
 }  // namespace
 
-void ClusterLists::emit(Part& part, const BoundsConstants& constants, const ClusterSettings& settings, uint64_t max_entries) const {
+void ClusterLists::emit(Part& part, const BoundsConstants& constants, const ClusterSettings& settings,
+                        uint64_t max_entries) const {
   simd::bound(part.visible, constants, part.boxes);
   uint64_t pairs = count_pairs(part.boxes, part.visible.count);
   if (pairs > max_entries && !settings.refinement) too_many(pairs, max_entries);
-  // Refinement leaves out about a tenth; demand far beyond the limit is refused before memory is taken for it.
+  // Refinement leaves out about a tenth; demand far beyond the limit is refused before memory is taken for
+  // it.
   if (pairs > 4 * max_entries) too_many(pairs, max_entries);
   reserve_pairs(part.pairs, pairs);
-  if (settings.refinement) emit_refined(part.visible, part.boxes, constants, planes_, part.pairs);
-  else simd::emit(part.visible, part.boxes, grid_, box_offsets_, part.pairs);
+  if (settings.refinement)
+    emit_refined(part.visible, part.boxes, constants, planes_, part.pairs);
+  else
+    simd::emit(part.visible, part.boxes, grid_, box_offsets_, part.pairs);
   part.next.assign(grid_.cells(), 0);
   for (size_t i = 0; i < part.pairs.count; ++i) ++part.next[part.pairs.froxel[i]];
 }
 
-void ClusterLists::build(const FrameInput& frame, const ClusterSettings& settings, uint64_t max_entries, Spans& spans) {
+void ClusterLists::build(const FrameInput& frame, const ClusterSettings& settings, uint64_t max_entries,
+                         Spans& spans) {
   grid_ = FroxelGrid::make(frame.view, settings.tile, settings.slices, settings.zmin, settings.zmax);
   const BoundsConstants constants(frame.view, grid_);
   const size_t lights = frame.lights.count();
@@ -71,7 +77,8 @@ void ClusterLists::build(const FrameInput& frame, const ClusterSettings& setting
   offsets_[grid_.cells()] = running;
   frame.threads->for_each(parts, [&](size_t p) {
     Part& part = parts_[p];
-    for (size_t i = 0; i < part.pairs.count; ++i) indices_[part.next[part.pairs.froxel[i]]++] = part.pairs.light[i];
+    for (size_t i = 0; i < part.pairs.count; ++i)
+      indices_[part.next[part.pairs.froxel[i]]++] = part.pairs.light[i];
   });
 }
 

@@ -1,4 +1,5 @@
-// The lists of practical clustered shading, from a frame's lights to one array of indices: cull, bound, count, scatter.
+// The lists of practical clustered shading, from a frame's lights to one array of indices: cull, bound,
+// count, scatter.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +12,18 @@
 namespace ml {
 
 struct ClusterSettings {
-  uint32_t tile = 24;     // px
+  uint32_t tile = 24;  // px
   uint32_t slices = 16;
-  float zmin = 5;         // m, end of the near slice
-  float zmax = 0;         // m, 0: the view's far
+  float zmin = 5;  // m, end of the near slice
+  float zmax = 0;  // m, 0: the view's far
   bool refinement = false;
 };
 
 class ClusterLists {
  public:
-  // Builds the lists of a frame; spans `cull` and `bin`. The lists of a froxel are in ascending order of light index and do not depend on the
-  // number of threads. Throws SystemError when they would hold more than `max_entries`.
+  // Builds the lists of a frame; spans `cull` and `bin`. The lists of a froxel are in ascending order of
+  // light index and do not depend on the number of threads. Throws SystemError when they would hold more than
+  // `max_entries`.
   void build(const FrameInput& frame, const ClusterSettings& settings, uint64_t max_entries, Spans& spans);
 
   const FroxelGrid& grid() const { return grid_; }
@@ -38,7 +40,8 @@ class ClusterLists {
     FroxelPairs pairs;
     std::vector<uint32_t> next;  // per froxel: first the part's count, then where its next entry goes
   };
-  void emit(Part& part, const BoundsConstants& constants, const ClusterSettings& settings, uint64_t max_entries) const;
+  void emit(Part& part, const BoundsConstants& constants, const ClusterSettings& settings,
+            uint64_t max_entries) const;
 
   FroxelGrid grid_;
   BoxOffsets box_offsets_;

@@ -41,7 +41,8 @@ class Clustered final : public Algorithm {
     copy(lists_.offsets(), memory.map(offsets_slot, lists_.offsets().size_bytes()));
     std::span<const uint32_t> indices = lists_.indices();
     if (duplicated_) {
-      auto* lights = reinterpret_cast<gpu_data::LightCore*>(memory.map(duplicates_slot, indices.size() * entry_bytes).data());
+      auto* lights = reinterpret_cast<gpu_data::LightCore*>(
+          memory.map(duplicates_slot, indices.size() * entry_bytes).data());
       for (size_t i = 0; i < indices.size(); ++i) lights[i] = frame.lights.core[indices[i]];
       memory.map(indices_slot, 0);
     } else {
@@ -78,10 +79,12 @@ AlgorithmEntry clustered_entry() {
       ParameterInfo::integer("tile", 24, 4, 1024, "side of a screen tile in pixels"),
       ParameterInfo::integer("slices", 16, 1, 256, "depth slices: one near slice and the rest exponential"),
       ParameterInfo::real("zmin", 5, 0.01, 1e6, "depth in metres at which the near slice ends"),
-      ParameterInfo::real("zmax", 0, 0, 1e9, "depth in metres at which the last slice ends; 0: the scene's far depth"),
+      ParameterInfo::real("zmax", 0, 0, 1e9,
+                          "depth in metres at which the last slice ends; 0: the scene's far depth"),
       ParameterInfo::boolean("refinement", false, "narrow each row and slice of froxels to the light's ball"),
-      ParameterInfo::choice("light_data", "indexed", {"indexed", "duplicated"},
-                            "lists hold light indices, or copies of the light data (Tiled Light Trees, fig. 5)"),
+      ParameterInfo::choice(
+          "light_data", "indexed", {"indexed", "duplicated"},
+          "lists hold light indices, or copies of the light data (Tiled Light Trees, fig. 5)"),
   };
   entry.check = [](const Parameters& p, uint32_t width, uint32_t height) -> std::string {
     if (p.real("zmax") > 0 && p.real("zmax") <= p.real("zmin")) return "zmax must be greater than zmin";

@@ -6,7 +6,8 @@
 
 namespace ml {
 
-FroxelGrid FroxelGrid::make(const gpu_data::ViewData& view, uint32_t tile, uint32_t slices, float zmin, float zmax) {
+FroxelGrid FroxelGrid::make(const gpu_data::ViewData& view, uint32_t tile, uint32_t slices, float zmin,
+                            float zmax) {
   FroxelGrid grid;
   grid.tile = tile;
   grid.columns = (view.resolution.x + tile - 1) / tile;
@@ -21,12 +22,13 @@ FroxelGrid FroxelGrid::make(const gpu_data::ViewData& view, uint32_t tile, uint3
 std::vector<FroxelGrid::DepthRange> FroxelGrid::slice_ranges() const {
   std::vector<DepthRange> ranges(slices);
   auto boundary = [&](uint32_t slice) {
-    return std::exp2(static_cast<double>(mapping.log_min) + (slice - 1.0) / static_cast<double>(mapping.scale));
+    return std::exp2(static_cast<double>(mapping.log_min) +
+                     (slice - 1.0) / static_cast<double>(mapping.scale));
   };
   for (uint32_t slice = 0; slice < slices; ++slice) {
     ranges[slice].low = slice == 0 ? 0 : static_cast<float>(boundary(slice) * (1 - 1e-5));
-    ranges[slice].high =
-        slice + 1 == slices ? std::numeric_limits<float>::infinity() : static_cast<float>(boundary(slice + 1) * (1 + 1e-5));
+    ranges[slice].high = slice + 1 == slices ? std::numeric_limits<float>::infinity()
+                                             : static_cast<float>(boundary(slice + 1) * (1 + 1e-5));
   }
   return ranges;
 }

@@ -9,20 +9,23 @@
 
 namespace ml {
 
-// Froxel (column, row, slice) has the number (row * columns + column) * slices + slice, so that one tile's slices are neighbours in memory.
+// Froxel (column, row, slice) has the number (row * columns + column) * slices + slice, so that one tile's
+// slices are neighbours in memory.
 struct FroxelGrid {
-  uint32_t tile = 0;                  // px
-  uint32_t columns = 0, rows = 0;     // the last ones may be partial
+  uint32_t tile = 0;               // px
+  uint32_t columns = 0, rows = 0;  // the last ones may be partial
   uint32_t slices = 0;
   gpu_data::SliceMapping mapping{};
 
   uint32_t cells() const { return columns * rows * slices; }
 
-  // `tile`, `slices` >= 1; `zmin` > 0; `zmax` 0 takes the view's far. A zmax at or below zmin is raised to just above it.
-  static FroxelGrid make(const gpu_data::ViewData& view, uint32_t tile, uint32_t slices, float zmin, float zmax);
+  // `tile`, `slices` >= 1; `zmin` > 0; `zmax` 0 takes the view's far. A zmax at or below zmin is raised to
+  // just above it.
+  static FroxelGrid make(const gpu_data::ViewData& view, uint32_t tile, uint32_t slices, float zmin,
+                         float zmax);
 
-  // Depths between which a slice's surface points lie, widened by the error of the slice function: [low, high) with low 0 for the first
-  // slice and high infinite for the last.
+  // Depths between which a slice's surface points lie, widened by the error of the slice function: [low,
+  // high) with low 0 for the first slice and high infinite for the last.
   struct DepthRange {
     float low, high;
   };
@@ -39,7 +42,8 @@ struct FroxelBox {
   bool operator==(const FroxelBox&) const = default;
 };
 
-// Numbers that turn view-space balls into froxel boxes; the same for the scalar reference and the vector code.
+// Numbers that turn view-space balls into froxel boxes; the same for the scalar reference and the vector
+// code.
 struct BoundsConstants {
   explicit BoundsConstants(const gpu_data::ViewData& view, const FroxelGrid& grid);
   gpu_data::ViewData view;
@@ -51,8 +55,8 @@ struct BoundsConstants {
   float last_column_pixel, last_row_pixel;  // width - 1, height - 1
 };
 
-// How much a ball is widened before it is bounded: relative for the rounding of distances, absolute for that of camera-relative
-// coordinates (1e-6 of their sum, several times the rounding of three products).
+// How much a ball is widened before it is bounded: relative for the rounding of distances, absolute for that
+// of camera-relative coordinates (1e-6 of their sum, several times the rounding of three products).
 inline constexpr float widen_relative = 1.00001f;
 inline constexpr float widen_absolute = 2e-6f;
 // Pixels by which a bound is widened on both sides, for the rounding of the projection itself.

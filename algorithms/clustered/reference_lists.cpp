@@ -19,15 +19,18 @@ void ReferenceLists::build(const FrameInput& frame, const ClusterSettings& setti
   scalar::cull(frame.lights, 0, frame.lights.count(), constants, visible_);
   boxes_.resize(visible_.count);
   for (size_t i = 0; i < visible_.count; ++i)
-    boxes_[i] = scalar::bound_ball(constants, visible_.x[i], visible_.y[i], visible_.z[i], visible_.radius[i]);
+    boxes_[i] =
+        scalar::bound_ball(constants, visible_.x[i], visible_.y[i], visible_.z[i], visible_.radius[i]);
 
   offsets_.assign(grid_.cells() + size_t{1}, 0);
-  for (const FroxelBox& box : boxes_) for_each_froxel(box, grid_, [&](uint32_t froxel) { ++offsets_[froxel + 1]; });
+  for (const FroxelBox& box : boxes_)
+    for_each_froxel(box, grid_, [&](uint32_t froxel) { ++offsets_[froxel + 1]; });
   for (uint32_t froxel = 0; froxel < grid_.cells(); ++froxel) offsets_[froxel + 1] += offsets_[froxel];
   next_.assign(offsets_.begin(), offsets_.end() - 1);
   indices_.resize(offsets_.back());
   for (size_t i = 0; i < visible_.count; ++i)
-    for_each_froxel(boxes_[i], grid_, [&](uint32_t froxel) { indices_[next_[froxel]++] = visible_.index[i]; });
+    for_each_froxel(boxes_[i], grid_,
+                    [&](uint32_t froxel) { indices_[next_[froxel]++] = visible_.index[i]; });
 }
 
 }  // namespace ml

@@ -1,5 +1,5 @@
-// Clustered binning as the papers describe it (Persson 2013; Tiled Light Trees 2017, section 4.1), in plain scalar code: the oracle of the
-// fast path's tests and the baseline of its benchmark.
+// Clustered binning as the papers describe it (Persson 2013; Tiled Light Trees 2017, section 4.1), in plain
+// scalar code: the oracle of the fast path's tests and the baseline of its benchmark.
 #pragma once
 
 #include "algorithms/clustered/cluster_lists.h"
@@ -8,7 +8,8 @@ namespace ml {
 
 class ReferenceLists {
  public:
-  // For each light in view its box of froxels; a first walk over the boxes counts, a second scatters. No refinement.
+  // For each light in view its box of froxels; a first walk over the boxes counts, a second scatters. No
+  // refinement.
   void build(const FrameInput& frame, const ClusterSettings& settings);
 
   const FroxelGrid& grid() const { return grid_; }

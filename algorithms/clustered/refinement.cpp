@@ -23,8 +23,8 @@ RefinementPlanes::RefinementPlanes(const BoundsConstants& c) : slices(c.grid.sli
   }
 }
 
-void emit_refined(const VisibleLights& visible, const LightBoxes& boxes, const BoundsConstants& c, const RefinementPlanes& planes,
-                  FroxelPairs& pairs) {
+void emit_refined(const VisibleLights& visible, const LightBoxes& boxes, const BoundsConstants& c,
+                  const RefinementPlanes& planes, FroxelPairs& pairs) {
   const FroxelGrid& grid = c.grid;
   const bool orthographic = c.view.orthographic != 0;
   size_t n = 0;
@@ -57,7 +57,8 @@ void emit_refined(const VisibleLights& visible, const LightBoxes& boxes, const B
           left_edge /= left_edge < 0 ? near : std::max(far, near);
         }
         float pixel0 = std::max(std::ceil((left_edge - c.left_edge) * c.x_pixels_per_unit - 1.0f), 0.0f);
-        float pixel1 = std::min(std::floor((right_edge - c.left_edge) * c.x_pixels_per_unit), c.last_column_pixel);
+        float pixel1 =
+            std::min(std::floor((right_edge - c.left_edge) * c.x_pixels_per_unit), c.last_column_pixel);
         if (!(pixel0 <= pixel1)) continue;
         uint32_t from = std::max(column0, static_cast<uint32_t>((pixel0 + 0.5f) * c.inverse_tile));
         uint32_t to = std::min(column1, static_cast<uint32_t>((pixel1 + 0.5f) * c.inverse_tile));

@@ -1,5 +1,6 @@
-// Sphere refinement (Persson 2013): inside its box of froxels a ball misses the corners. For every row and slice of froxels that the box
-// covers, the columns are narrowed to those that the ball's part between the row's and the slice's planes can reach.
+// Sphere refinement (Persson 2013): inside its box of froxels a ball misses the corners. For every row and
+// slice of froxels that the box covers, the columns are narrowed to those that the ball's part between the
+// row's and the slice's planes can reach.
 #pragma once
 
 #include "algorithms/clustered/binning.h"
@@ -15,7 +16,8 @@ struct RefinementPlanes {
   RefinementPlanes(const BoundsConstants& constants);
 };
 
-// Writes the pairs of all boxes, narrowed; never leaves out a froxel that holds a pixel centre's ray inside the ball.
+// Writes the pairs of all boxes, narrowed; never leaves out a froxel that holds a pixel centre's ray inside
+// the ball.
 void emit_refined(const VisibleLights& visible, const LightBoxes& boxes, const BoundsConstants& constants,
                   const RefinementPlanes& planes, FroxelPairs& pairs);
 

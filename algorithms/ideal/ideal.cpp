@@ -6,10 +6,13 @@
 namespace ml {
 namespace {
 
-// The lists come from the harness (harness/frame/device_frame.h), which needs them for the proof that no light was lost.
+// The lists come from the harness (harness/frame/device_frame.h), which needs them for the proof that no
+// light was lost.
 class Ideal final : public Algorithm {
  public:
-  void prepare(const FrameInput& frame, UploadMemory&, Spans&) override { counters_.in_frustum = frame.lights.count(); }
+  void prepare(const FrameInput& frame, UploadMemory&, Spans&) override {
+    counters_.in_frustum = frame.lights.count();
+  }
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {}; }
   ShadeShaders shade_shaders() const override { return {ideal_shade, ideal_shade_counting}; }

@@ -1,4 +1,5 @@
-// Per pixel exactly the lights that contribute, found beforehand and not timed: the lower bound of any shading pass.
+// Per pixel exactly the lights that contribute, found beforehand and not timed: the lower bound of any
+// shading pass.
 #pragma once
 
 #include "algorithms/algorithm.h"

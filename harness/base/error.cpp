@@ -14,11 +14,13 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-Error::Error(ExitCode code, const std::string& message) : std::runtime_error(one_line(message)), code_(code) {}
+Error::Error(ExitCode code, const std::string& message)
+    : std::runtime_error(one_line(message)), code_(code) {}
 
 namespace {
 
-// Edits (insert, delete, replace, swap of neighbours) that turn `a` into `b`; both folded to lower case by the caller.
+// Edits (insert, delete, replace, swap of neighbours) that turn `a` into `b`; both folded to lower case by
+// the caller.
 size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<size_t> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});
@@ -26,7 +28,8 @@ size_t edit_distance(const std::string& a, const std::string& b) {
     next[0] = i;
     for (size_t j = 1; j <= b.size(); ++j) {
       next[j] = std::min({row[j] + 1, next[j - 1] + 1, row[j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) next[j] = std::min(next[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        next[j] = std::min(next[j], before[j - 2] + 1);
     }
     before.swap(row);
     row.swap(next);

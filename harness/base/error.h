@@ -1,7 +1,7 @@
 // The errors that manylights reports, and the exit codes they become.
 //
-// Programmer errors are asserted; what a user, a file, a device or a disk did wrong is thrown as ml::Error, caught once in
-// main() and printed as one line on stderr.
+// Programmer errors are asserted; what a user, a file, a device or a disk did wrong is thrown as ml::Error,
+// caught once in main() and printed as one line on stderr.
 #pragma once
 
 #include <stdexcept>
@@ -20,7 +20,8 @@ enum class ExitCode : int {
   interrupted = 4,   // stopped by a signal; what was measured is kept
 };
 
-// An error with a one-line message that names the file, the place in it, what was expected and what was found.
+// An error with a one-line message that names the file, the place in it, what was expected and what was
+// found.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message);
@@ -48,11 +49,12 @@ class Interrupted : public Error {
   explicit Interrupted(const std::string& message) : Error(ExitCode::interrupted, message) {}
 };
 
-// `text` with control characters and line breaks replaced by spaces, cut at 400 characters: an error stays one line, whatever
-// a file put into it.
+// `text` with control characters and line breaks replaced by spaces, cut at 400 characters: an error stays
+// one line, whatever a file put into it.
 std::string one_line(std::string_view text);
 
-// The known name nearest to `name` by edit distance, or "" when none is near (more than a third of the letters differ).
+// The known name nearest to `name` by edit distance, or "" when none is near (more than a third of the
+// letters differ).
 std::string nearest_name(std::string_view name, const std::vector<std::string>& known);
 
 // ", did you mean 'x'?" for the nearest known name, else ", known are a, b, c".

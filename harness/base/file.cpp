@@ -76,11 +76,13 @@ Container read_whole(const std::filesystem::path& path, size_t limit) {
   auto size = std::filesystem::file_size(path, error);
   if (error) throw UsageError(path.string() + ": cannot read it: " + error.message());
   if (size > limit)
-    throw UsageError(path.string() + ": " + std::to_string(size) + " bytes, more than the limit of " + std::to_string(limit));
+    throw UsageError(path.string() + ": " + std::to_string(size) + " bytes, more than the limit of " +
+                     std::to_string(limit));
   std::ifstream stream(path, std::ios::binary);
   Container content(size, typename Container::value_type{});
   stream.read(reinterpret_cast<char*>(content.data()), static_cast<std::streamsize>(size));
-  if (!stream || static_cast<size_t>(stream.gcount()) != size) throw UsageError(path.string() + ": cannot read it");
+  if (!stream || static_cast<size_t>(stream.gcount()) != size)
+    throw UsageError(path.string() + ": cannot read it");
   return content;
 }
 
@@ -109,7 +111,8 @@ void make_output_directory(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) throw SystemError("cannot make the output directory " + path.string() + ": " + error.message());
-  if (!std::filesystem::is_directory(path, error)) throw SystemError("the output " + path.string() + " is not a directory");
+  if (!std::filesystem::is_directory(path, error))
+    throw SystemError("the output " + path.string() + " is not a directory");
   TemporaryFile probe(path / "probe");
 }
 

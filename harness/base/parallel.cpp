@@ -1,7 +1,7 @@
 #include "harness/base/parallel.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <cassert>
@@ -24,9 +24,7 @@ Threads::Threads(unsigned count) : count_(count) {
 Threads::~Threads() = default;
 
 void Threads::run(size_t items, void (*call)(void*, size_t), void* context) {
-  arena_->arena.execute([&] {
-    tbb::parallel_for(size_t{0}, items, [&](size_t i) { call(context, i); });
-  });
+  arena_->arena.execute([&] { tbb::parallel_for(size_t{0}, items, [&](size_t i) { call(context, i); }); });
 }
 
 }  // namespace ml

@@ -1,8 +1,8 @@
 // Counter-based and sequential random numbers, the same on every machine and compiler.
 //
-// Source: M. O'Neill, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms", 2014; the hash is the
-// RXS-M-XS output step that M. Jarzynski and M. Olano compare in "Hash Functions for GPU Rendering", JCGT 9(3), 2020.
-// Floats are made from the upper 24 bits, so that 0 <= value < 1 holds exactly.
+// Source: M. O'Neill, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms", 2014; the
+// hash is the RXS-M-XS output step that M. Jarzynski and M. Olano compare in "Hash Functions for GPU
+// Rendering", JCGT 9(3), 2020. Floats are made from the upper 24 bits, so that 0 <= value < 1 holds exactly.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,9 @@ class Random {
     return (shifted >> turn) | (shifted << ((32 - turn) & 31));
   }
   // 0 <= result < count, without modulo bias worth speaking of (count < 2^24). `count` > 0.
-  uint32_t below(uint32_t count) { return static_cast<uint32_t>((static_cast<uint64_t>(next()) * count) >> 32); }
+  uint32_t below(uint32_t count) {
+    return static_cast<uint32_t>((static_cast<uint64_t>(next()) * count) >> 32);
+  }
   float uniform() { return unit_float(next()); }
   float uniform(float low, float high) { return low + (high - low) * uniform(); }
 

@@ -53,14 +53,16 @@ Calibration calibrate(gpu::Device& device, uint32_t repeats) {
     entry.whole_ms = middle.whole;
     entry.fence_ms = middle.fence;
     double whole = std::max(middle.whole, 1e-6);
-    result.span_disagreement = std::max(result.span_disagreement, std::abs(sum_of(entry.spans_ms) - whole) / whole);
+    result.span_disagreement =
+        std::max(result.span_disagreement, std::abs(sum_of(entry.spans_ms) - whole) / whole);
     result.whole_over_fence = std::max(result.whole_over_fence, middle.whole / std::max(middle.fence, 1e-6));
     result.orders.push_back(std::move(entry));
   }
   auto [fastest, slowest] = std::minmax_element(compute_times.begin(), compute_times.end());
   result.compute_spread = *slowest / std::max(*fastest, 1e-6);
   if (result.compute_spread > calibration_spread_limit)
-    result.note = fmt::format("the same pass takes {:.2f} times as long in one order as in another", result.compute_spread);
+    result.note = fmt::format("the same pass takes {:.2f} times as long in one order as in another",
+                              result.compute_spread);
   else if (result.span_disagreement > calibration_span_limit)
     result.note = fmt::format("the spans' sum is {:.0f} % off the whole", 100 * result.span_disagreement);
   else if (result.whole_over_fence > calibration_fence_limit)
@@ -87,7 +89,10 @@ std::string timing_contradiction(const gpu::SubmissionTimes& times, gpu::Timing 
 nlohmann::json Calibration::to_json() const {
   nlohmann::json list = nlohmann::json::array();
   for (const Order& order : orders)
-    list.push_back({{"passes", order.passes}, {"spans_ms", order.spans_ms}, {"whole_ms", order.whole_ms}, {"fence_ms", order.fence_ms}});
+    list.push_back({{"passes", order.passes},
+                    {"spans_ms", order.spans_ms},
+                    {"whole_ms", order.whole_ms},
+                    {"fence_ms", order.fence_ms}});
   return {{"orders", list},
           {"compute_spread", compute_spread},
           {"span_disagreement", span_disagreement},

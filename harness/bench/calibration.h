@@ -1,4 +1,5 @@
-// Whether the device's clock can be believed: passes of known cost in four orders, timed as spans, as a whole and by the fence.
+// Whether the device's clock can be believed: passes of known cost in four orders, timed as spans, as a whole
+// and by the fence.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -22,14 +23,14 @@ struct Calibration {
   double span_disagreement = 0;
   // Largest whole / fence over the orders: more than 1 would be a clock that runs ahead.
   double whole_over_fence = 0;
-  bool agrees = false;   // all three within the limits below
-  std::string note;      // why not; empty when it agrees
+  bool agrees = false;  // all three within the limits below
+  std::string note;     // why not; empty when it agrees
 
   nlohmann::json to_json() const;
 };
 
-// Limits of agreement. Noise of a shared machine is far below the error that they are for: a stamp that is wrong after a raster pass is
-// wrong by a factor of hundreds.
+// Limits of agreement. Noise of a shared machine is far below the error that they are for: a stamp that is
+// wrong after a raster pass is wrong by a factor of hundreds.
 inline constexpr double calibration_spread_limit = 2.0;
 inline constexpr double calibration_span_limit = 0.10;
 inline constexpr double calibration_fence_limit = 1.10;
@@ -37,7 +38,8 @@ inline constexpr double calibration_fence_limit = 1.10;
 // Takes about half a second. `repeats` per order.
 Calibration calibrate(gpu::Device& device, uint32_t repeats = 5);
 
-// Whether the three times of one submission contradict each other; "" or why. Differences below 0.2 ms are nothing.
+// Whether the three times of one submission contradict each other; "" or why. Differences below 0.2 ms are
+// nothing.
 std::string timing_contradiction(const gpu::SubmissionTimes& times, gpu::Timing timing);
 
 }  // namespace ml

@@ -25,8 +25,8 @@ bool any(const std::vector<uint32_t>& values) {
   return std::any_of(values.begin(), values.end(), [](uint32_t value) { return value != 0; });
 }
 
-void write_pair(const Picture& picture, const std::filesystem::path& folder, const std::string& stem, const HeatMapStyle& style,
-                std::vector<std::string>& files) {
+void write_pair(const Picture& picture, const std::filesystem::path& folder, const std::string& stem,
+                const HeatMapStyle& style, std::vector<std::string>& files) {
   make_output_directory((folder / stem).parent_path());
   write_exr(picture, folder / (stem + ".exr"), {{"title", style.title}});
   write_heat_map_png(picture, folder / (stem + ".png"), style);
@@ -44,13 +44,15 @@ Picture result_picture(DeviceFrame& frame) {
   return picture;
 }
 
-Picture count_picture(const std::vector<uint32_t>& counts, const std::vector<uint8_t>& lit, uint32_t width, uint32_t height) {
+Picture count_picture(const std::vector<uint32_t>& counts, const std::vector<uint8_t>& lit, uint32_t width,
+                      uint32_t height) {
   Picture picture(width, height, {"Y"});
   for (size_t i = 0; i < counts.size(); ++i) picture.data[i] = lit[i] ? static_cast<float>(counts[i]) : -1.0f;
   return picture;
 }
 
-std::vector<std::string> write_image(DeviceFrame& frame, const std::filesystem::path& folder, const std::string& stem) {
+std::vector<std::string> write_image(DeviceFrame& frame, const std::filesystem::path& folder,
+                                     const std::string& stem) {
   Picture picture = result_picture(frame);
   make_output_directory((folder / stem).parent_path());
   write_exr(picture, folder / (stem + ".exr"));
@@ -58,8 +60,9 @@ std::vector<std::string> write_image(DeviceFrame& frame, const std::filesystem::
   return {stem + ".exr", stem + ".png"};
 }
 
-std::vector<std::string> write_heat_maps(const PixelCounts& counts, const std::vector<uint8_t>& lit, uint32_t width, uint32_t height,
-                                         uint32_t tile, const std::filesystem::path& folder, const std::string& stem) {
+std::vector<std::string> write_heat_maps(const PixelCounts& counts, const std::vector<uint8_t>& lit,
+                                         uint32_t width, uint32_t height, uint32_t tile,
+                                         const std::filesystem::path& folder, const std::string& stem) {
   struct Quantity {
     const char* name;
     const char* title;
@@ -83,7 +86,8 @@ std::vector<std::string> write_heat_maps(const PixelCounts& counts, const std::v
     write_pair(pixels, folder, fmt::format("{}.{}", stem, quantity.name), style, files);
     style.title = fmt::format("{}, largest of each {} px tile", quantity.title, tile);
     style.block = tile;
-    write_pair(tile_maximum(pixels, tile), folder, fmt::format("{}.{}.tiles", stem, quantity.name), style, files);
+    write_pair(tile_maximum(pixels, tile), folder, fmt::format("{}.{}.tiles", stem, quantity.name), style,
+               files);
   }
   return files;
 }

@@ -13,13 +13,16 @@ namespace ml {
 // Picture of the shading result (R, G, B).
 Picture result_picture(DeviceFrame& frame);
 // One-channel picture of a count; pixels without a surface are -1.
-Picture count_picture(const std::vector<uint32_t>& counts, const std::vector<uint8_t>& lit, uint32_t width, uint32_t height);
+Picture count_picture(const std::vector<uint32_t>& counts, const std::vector<uint8_t>& lit, uint32_t width,
+                      uint32_t height);
 
 // Writes FOLDER/STEM.exr and .png; returns the names relative to the folder.
-std::vector<std::string> write_image(DeviceFrame& frame, const std::filesystem::path& folder, const std::string& stem);
-// Writes `listed` and `contributing`, and `nodes` and `traversal` where there are any, per pixel and per tile (the tile's largest value) as
-// EXR and PNG; returns the names relative to the folder.
-std::vector<std::string> write_heat_maps(const PixelCounts& counts, const std::vector<uint8_t>& lit, uint32_t width, uint32_t height,
-                                         uint32_t tile, const std::filesystem::path& folder, const std::string& stem);
+std::vector<std::string> write_image(DeviceFrame& frame, const std::filesystem::path& folder,
+                                     const std::string& stem);
+// Writes `listed` and `contributing`, and `nodes` and `traversal` where there are any, per pixel and per tile
+// (the tile's largest value) as EXR and PNG; returns the names relative to the folder.
+std::vector<std::string> write_heat_maps(const PixelCounts& counts, const std::vector<uint8_t>& lit,
+                                         uint32_t width, uint32_t height, uint32_t tile,
+                                         const std::filesystem::path& folder, const std::string& stem);
 
 }  // namespace ml

@@ -41,8 +41,9 @@ std::string now_utc() {
 // Variables that change which device is used or how fast it is; only those that are set.
 nlohmann::json environment() {
   nlohmann::json result = nlohmann::json::object();
-  for (const char* name : {"MANYLIGHTS_DEVICE", "VK_ICD_FILENAMES", "VK_DRIVER_FILES", "VK_LOADER_DRIVERS_SELECT", "VK_INSTANCE_LAYERS",
-                           "LP_NUM_THREADS", "GALLIVM_PERF", "MESA_VK_DEVICE_SELECT"})
+  for (const char* name :
+       {"MANYLIGHTS_DEVICE", "VK_ICD_FILENAMES", "VK_DRIVER_FILES", "VK_LOADER_DRIVERS_SELECT",
+        "VK_INSTANCE_LAYERS", "LP_NUM_THREADS", "GALLIVM_PERF", "MESA_VK_DEVICE_SELECT"})
     if (const char* value = std::getenv(name)) result[name] = value;
   return result;
 }
@@ -65,11 +66,15 @@ nlohmann::json run_context(const gpu::Device& device, const Calibration& calibra
           {"commit", build_info::commit},
           {"dirty", build_info::dirty},
           {"time", now_utc()},
-          {"build", {{"type", build_info::type}, {"compiler", build_info::compiler}, {"sanitizers", build_info::sanitizers}}},
+          {"build",
+           {{"type", build_info::type},
+            {"compiler", build_info::compiler},
+            {"sanitizers", build_info::sanitizers}}},
           {"host",
            {{"cpu", cpu_model()},
             {"cores", static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN))},
-            {"memory_bytes", static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE))},
+            {"memory_bytes",
+             static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE))},
             {"system", system_name()},
             {"kernel", kernel.release}}},
           {"device",

@@ -4,8 +4,9 @@ namespace ml {
 
 PixelCounts read_counts(DeviceFrame& frame) {
   const CounterTargets& targets = frame.counters();
-  return {frame.read_words(targets.listed), frame.read_words(targets.tested), frame.read_words(targets.contributing),
-          frame.read_words(targets.nodes),  frame.read_words(targets.hash),   frame.read_words(targets.traversal)};
+  return {frame.read_words(targets.listed),       frame.read_words(targets.tested),
+          frame.read_words(targets.contributing), frame.read_words(targets.nodes),
+          frame.read_words(targets.hash),         frame.read_words(targets.traversal)};
 }
 
 std::vector<uint8_t> lit_pixels(DeviceFrame& frame) {
@@ -15,8 +16,8 @@ std::vector<uint8_t> lit_pixels(DeviceFrame& frame) {
   return lit;
 }
 
-FrameCounters summarize(const PixelCounts& counts, const ContributingLights& truth, const std::vector<uint8_t>& lit,
-                        const PrepareCounters& prepare) {
+FrameCounters summarize(const PixelCounts& counts, const ContributingLights& truth,
+                        const std::vector<uint8_t>& lit, const PrepareCounters& prepare) {
   FrameCounters frame;
   frame.prepare = prepare;
   uint64_t listed = 0, tested = 0, contributing = 0, nodes = 0;
@@ -30,7 +31,8 @@ FrameCounters summarize(const PixelCounts& counts, const ContributingLights& tru
     if (truth.count[i] != counts.contributing[i] || truth.hash[i] != counts.hash[i]) {
       ++frame.mismatched_pixels;
       // As many as there should be, but not the same ones: at least one was lost and another is too much.
-      if (truth.count[i] > 0 && truth.hash[i] != counts.hash[i] && truth.count[i] == counts.contributing[i]) ++frame.lost;
+      if (truth.count[i] > 0 && truth.hash[i] != counts.hash[i] && truth.count[i] == counts.contributing[i])
+        ++frame.lost;
     }
   }
   double pixels = frame.lit_pixels ? static_cast<double>(frame.lit_pixels) : 1;

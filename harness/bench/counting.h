@@ -19,9 +19,10 @@ PixelCounts read_counts(DeviceFrame& frame);
 
 // Frame totals and means as the result has them.
 struct FrameCounters {
-  uint64_t lit_pixels = 0;         // pixels with a surface
-  uint64_t lost = 0;               // contributing lights that were not evaluated, over all pixels
-  uint64_t mismatched_pixels = 0;  // pixels whose set of contributing lights differs in any way (lost, twice, wrong)
+  uint64_t lit_pixels = 0;  // pixels with a surface
+  uint64_t lost = 0;        // contributing lights that were not evaluated, over all pixels
+  uint64_t mismatched_pixels =
+      0;  // pixels whose set of contributing lights differs in any way (lost, twice, wrong)
   double listed = 0, tested = 0, contributing = 0, nodes = 0;  // means over lit pixels
   PrepareCounters prepare;
   // Names as in the result's `counters`.
@@ -29,8 +30,8 @@ struct FrameCounters {
 };
 
 // `lit` has one flag a pixel; `truth` is what contributes.
-FrameCounters summarize(const PixelCounts& counts, const ContributingLights& truth, const std::vector<uint8_t>& lit,
-                        const PrepareCounters& prepare);
+FrameCounters summarize(const PixelCounts& counts, const ContributingLights& truth,
+                        const std::vector<uint8_t>& lit, const PrepareCounters& prepare);
 
 // Which pixels of the loaded frame have a surface.
 std::vector<uint8_t> lit_pixels(DeviceFrame& frame);

@@ -9,7 +9,7 @@
 namespace ml {
 
 struct Estimate {
-  double seconds = 0;       // on two cores of a software device; a real GPU takes a small part of it
+  double seconds = 0;         // on two cores of a software device; a real GPU takes a small part of it
   uint64_t memory_bytes = 0;  // targets, lists of contributing lights and counters of the largest setup
 };
 

@@ -1,4 +1,5 @@
-// SIGINT and SIGTERM become a flag that long work looks at between its steps, so that what was measured is kept.
+// SIGINT and SIGTERM become a flag that long work looks at between its steps, so that what was measured is
+// kept.
 #pragma once
 
 namespace ml {

@@ -1,4 +1,5 @@
-// The loaded frame as the double-precision oracle takes it: points from the g-buffer, lights as the device has them.
+// The loaded frame as the double-precision oracle takes it: points from the g-buffer, lights as the device
+// has them.
 #pragma once
 
 #include <vector>

@@ -43,7 +43,8 @@ void Progress::print(const std::string& what, bool last) {
   printed_ = Clock::now();
   double elapsed = milliseconds_between(begin_, printed_) / 1000;
   double left = elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_);
-  std::string line = fmt::format("{}: {:3.0f} %, {} {}  {}", title_, 100.0 * static_cast<double>(done_) / static_cast<double>(total_),
+  std::string line = fmt::format("{}: {:3.0f} %, {} {}  {}", title_,
+                                 100.0 * static_cast<double>(done_) / static_cast<double>(total_),
                                  duration(last ? elapsed : left), last ? "in all" : "left", last ? "" : what);
   if (terminal_) {
     std::fprintf(stderr, "\r\033[K%.118s", line.c_str());

@@ -1,4 +1,5 @@
-// Progress of long work: one rewritten line with the time left on a terminal, a plain line now and then elsewhere.
+// Progress of long work: one rewritten line with the time left on a terminal, a plain line now and then
+// elsewhere.
 #pragma once
 
 #include <cstdint>

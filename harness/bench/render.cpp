@@ -36,21 +36,25 @@ std::vector<LightRow> light_rows(const FrameInput& input) {
 }
 
 // Channels `first`.. of pictures with four floats a pixel.
-Picture picked(const std::vector<float>& rgba, uint32_t width, uint32_t height, std::vector<std::string> names, size_t first) {
+Picture picked(const std::vector<float>& rgba, uint32_t width, uint32_t height,
+               std::vector<std::string> names, size_t first) {
   const size_t channels = names.size();
   Picture picture(width, height, std::move(names));
   for (size_t i = 0; i < rgba.size() / 4; ++i)
-    for (size_t channel = 0; channel < channels; ++channel) picture.data[channels * i + channel] = rgba[4 * i + first + channel];
+    for (size_t channel = 0; channel < channels; ++channel)
+      picture.data[channels * i + channel] = rgba[4 * i + first + channel];
   return picture;
 }
 
-Picture aov_picture(const std::string& name, DeviceFrame& frame, const PixelCounts& counts, const std::vector<uint8_t>& lit) {
+Picture aov_picture(const std::string& name, DeviceFrame& frame, const PixelCounts& counts,
+                    const std::vector<uint8_t>& lit) {
   const uint32_t width = frame.targets().width(), height = frame.targets().height();
   using Aov = DeviceFrame::Aov;
   if (name == "position") return picked(frame.read_aov(Aov::position), width, height, {"X", "Y", "Z"}, 0);
   if (name == "normal") return picked(frame.read_aov(Aov::normal), width, height, {"X", "Y", "Z"}, 0);
   if (name == "albedo") return picked(frame.read_aov(Aov::albedo), width, height, {"R", "G", "B"}, 0);
-  if (name == "material") return picked(frame.read_aov(Aov::material), width, height, {"roughness", "metallic"}, 0);
+  if (name == "material")
+    return picked(frame.read_aov(Aov::material), width, height, {"roughness", "metallic"}, 0);
   if (name == "depth") return picked(frame.read_aov(Aov::position), width, height, {"Y"}, 3);
   return count_picture(name == "listed" ? counts.listed : counts.contributing, lit, width, height);
 }
@@ -68,14 +72,16 @@ const AlgorithmSpec& chosen_algorithm(const Setup& setup, const std::string& nam
 }  // namespace
 
 const std::vector<std::string>& aov_names() {
-  static const std::vector<std::string> names{"position", "normal", "depth", "albedo", "material", "contributing", "listed"};
+  static const std::vector<std::string> names{"position", "normal",       "depth", "albedo",
+                                              "material", "contributing", "listed"};
   return names;
 }
 
 std::vector<std::filesystem::path> render_frame(const Config& config, const RenderOptions& options) {
   const Setup& setup = config.setups.front();
   if (options.frame >= setup.camera.frames)
-    throw UsageError(fmt::format("--frame {}: the configuration has frames 0 to {}", options.frame, setup.camera.frames - 1));
+    throw UsageError(fmt::format("--frame {}: the configuration has frames 0 to {}", options.frame,
+                                 setup.camera.frames - 1));
   std::string ending = options.out.extension().string();
   if (ending != ".exr" && ending != ".png")
     throw UsageError(fmt::format("--out '{}': the name must end in .exr or .png", options.out.string()));
@@ -87,10 +93,11 @@ std::vector<std::filesystem::path> render_frame(const Config& config, const Rend
   const AlgorithmSpec& spec = chosen_algorithm(setup, options.algorithm);
   if (!options.out.parent_path().empty()) make_output_directory(options.out.parent_path());
 
-  gpu::Device device({options.device, options.validation});
-  fmt::print(stderr, "device: {} ({}, {})\n", device.info().name, device.info().type, device.info().driver);
   Workload workload(setup, config.measure.threads);
-  for (const std::string& note : workload.scene()->notes) fmt::print(stderr, "{}: {}\n", setup.scene_label, note);
+  gpu::Device device({options.device, options.validation});
+  fmt::print("device: {} ({}, {})\n", device.info().name, device.info().type, device.info().driver);
+  for (const std::string& note : workload.scene()->notes)
+    fmt::print(stderr, "{}: {}\n", setup.scene_label, note);
   DeviceFrame frame(device, *workload.scene(), workload.effects(), setup.width, setup.height);
   const AlgorithmEntry& entry = find_algorithm(spec.name, "render");
   ShadedAlgorithm algorithm(device, entry, spec.parameters, workload.effects());
@@ -103,8 +110,10 @@ std::vector<std::filesystem::path> render_frame(const Config& config, const Rend
 
   std::vector<std::filesystem::path> files{options.out};
   Picture picture = result_picture(frame);
-  if (ending == ".exr") write_exr(picture, options.out);
-  else write_preview_png(picture, options.out);
+  if (ending == ".exr")
+    write_exr(picture, options.out);
+  else
+    write_preview_png(picture, options.out);
   if (!aovs.empty()) {
     PixelCounts counts = read_counts(frame);
     std::vector<uint8_t> lit = lit_pixels(frame);
@@ -119,7 +128,8 @@ std::vector<std::filesystem::path> render_frame(const Config& config, const Rend
     write_lights_csv(light_rows(input), options.lights);
     files.push_back(options.lights);
   }
-  for (const std::string& message : device.validation_messages()) throw std::runtime_error("validation layer: " + one_line(message));
+  for (const std::string& message : device.validation_messages())
+    throw std::runtime_error("validation layer: " + one_line(message));
   return files;
 }
 

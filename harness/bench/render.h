@@ -1,4 +1,5 @@
-// `render`: one frame of a configuration as pictures, with everything that is needed to check its numbers elsewhere.
+// `render`: one frame of a configuration as pictures, with everything that is needed to check its numbers
+// elsewhere.
 #pragma once
 
 #include <filesystem>
@@ -22,8 +23,8 @@ struct RenderOptions {
 // position, normal, depth, albedo, material, contributing, listed.
 const std::vector<std::string>& aov_names();
 
-// Renders the frame of the configuration's first setup. AOVs are written beside `out` as STEM.NAME.exr. Returns all files written. Throws
-// UsageError (frame or AOV out of range, unknown ending) and SystemError.
+// Renders the frame of the configuration's first setup. AOVs are written beside `out` as STEM.NAME.exr.
+// Returns all files written. Throws UsageError (frame or AOV out of range, unknown ending) and SystemError.
 std::vector<std::filesystem::path> render_frame(const Config& config, const RenderOptions& options);
 
 }  // namespace ml

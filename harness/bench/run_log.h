@@ -21,7 +21,8 @@ class RunLog {
   Spans::Span span(std::string_view name) { return spans_.span(name); }
 
   // Times of one sample for the trace: stages in order, from `at` on.
-  void trace(const std::string& row, Clock::time_point at, const std::vector<std::pair<std::string, double>>& stages,
+  void trace(const std::string& row, Clock::time_point at,
+             const std::vector<std::pair<std::string, double>>& stages,
              const std::map<std::string, std::string>& arguments) {
     if (!trace_) return;
     double begin = milliseconds_between(begin_, at);
@@ -40,7 +41,9 @@ class RunLog {
       spans[name] = sum;
       accounted += sum;
     }
-    return {{"wall_ms", wall}, {"spans_ms", spans}, {"overhead_fraction", wall > 0 ? std::max(0.0, 1 - accounted / wall) : 0.0}};
+    return {{"wall_ms", wall},
+            {"spans_ms", spans},
+            {"overhead_fraction", wall > 0 ? std::max(0.0, 1 - accounted / wall) : 0.0}};
   }
 
  private:

@@ -30,7 +30,8 @@ std::vector<nlohmann::json> earlier_cases(const Config& config, const RunOptions
   if (!options.resume || !std::filesystem::exists(file)) return {};
   nlohmann::json earlier = read_result(file);
   if (earlier["config"] != config.resolved)
-    throw UsageError(file.string() + ": is the result of another configuration; choose another folder or leave out --resume");
+    throw UsageError(file.string() +
+                     ": is the result of another configuration; choose another folder or leave out --resume");
   std::vector<nlohmann::json> complete;
   for (const nlohmann::json& item : earlier["cases"])
     if (item["repeats_done"] == config.measure.repeats) complete.push_back(item);
@@ -93,7 +94,17 @@ Result run_config(const Config& config, const RunOptions& options) {
                        [&](const nlohmann::json& earlier) { return earlier["id"] == item.id; });
   });
 
+  const std::map<size_t, std::vector<Case>> groups = by_setup(cases);
   RunLog log(config.outputs.trace);
+  std::shared_ptr<const Scene> scene;
+  SceneSpec scene_spec;
+  {
+    auto span = log.span("scene");
+    std::vector<const Setup*> setups;
+    for (const auto& [index, group] : groups) setups.push_back(&config.setups[index]);
+    scene = check_workloads(setups);
+    if (!setups.empty()) scene_spec = setups.front()->scene;
+  }
   std::optional<gpu::Device> device;
   {
     auto span = log.span("device");
@@ -102,16 +113,14 @@ Result run_config(const Config& config, const RunOptions& options) {
   }
   result.config = config.resolved;
   if (!options.quiet)
-    fmt::print(stderr, "device: {} ({}, {})\n", device->info().name, device->info().type, device->info().driver);
+    fmt::print("device: {} ({}, {})\n", device->info().name, device->info().type, device->info().driver);
   const nlohmann::json& calibration = result.context["calibration"];
   Recorder recorder(result, options, *device, log);
   Progress progress(config.name, samples_of(config, cases), options.quiet);
   auto step = [&](uint64_t samples, const std::string& what) { progress.advance(samples, what); };
 
   std::vector<CaseResult> finished;
-  std::shared_ptr<const Scene> scene;
-  SceneSpec scene_spec;
-  for (const auto& [index, group] : by_setup(cases)) {
+  for (const auto& [index, group] : groups) {
     const Setup& setup = config.setups[index];
     if (scene && !same_scene(scene_spec, setup.scene)) scene = nullptr;
     SetupRun run(*device, config, group, scene, log);
@@ -145,7 +154,8 @@ Result run_config(const Config& config, const RunOptions& options) {
   }
   if (config.outputs.trace) {
     auto span = log.span("writing");
-    write_trace(log.events(), fmt::format("{} ({})", device->info().name, device->info().type), options.out / "trace.json");
+    write_trace(log.events(), fmt::format("{} ({})", device->info().name, device->info().type),
+                options.out / "trace.json");
   }
   recorder.write(finished, {}, true);
   return result;

@@ -16,18 +16,19 @@ struct RunOptions {
   std::filesystem::path out;  // folder of result.json and its files
   std::string filter;         // ECMAScript regular expression searched in case ids; empty: all
   std::string device;         // selector, see gpu::DeviceOptions
-  bool resume = false;        // keep the complete cases of a result with the same configuration that is in `out`
+  bool resume = false;  // keep the complete cases of a result with the same configuration that is in `out`
   uint32_t shard = 0, shards = 1;  // only the setups with number % shards == shard
-  bool validation = false;    // validation layers: for tests; the result says so
-  bool quiet = false;         // no progress
+  bool validation = false;         // validation layers: for tests; the result says so
+  bool quiet = false;              // no progress
 };
 
-// The cases that are left by filter and shard, in order. Throws UsageError for a filter that is no regular expression or leaves nothing.
+// The cases that are left by filter and shard, in order. Throws UsageError for a filter that is no regular
+// expression or leaves nothing.
 std::vector<Case> selected_cases(const Config& config, const RunOptions& options);
 
-// Runs; every finished lap is on the disk as a valid result with "complete": false. Throws Interrupted after a signal, with what was
-// measured written; SystemError and UsageError before any time was measured for the setup at hand. Messages of the validation layer end the run
-// (std::runtime_error).
+// Runs; every finished lap is on the disk as a valid result with "complete": false. Throws Interrupted after
+// a signal, with what was measured written; SystemError and UsageError before any time was measured for the
+// setup at hand. Messages of the validation layer end the run (std::runtime_error).
 Result run_config(const Config& config, const RunOptions& options);
 
 }  // namespace ml

@@ -38,12 +38,13 @@ CaseResult empty_result(const Config& config, const Case& item, Workload& worklo
 
 nlohmann::json parameters_json(const Parameters& parameters) {
   nlohmann::json json = nlohmann::json::object();
-  for (const auto& [name, value] : parameters.values()) std::visit([&](const auto& v) { json[name] = v; }, value);
+  for (const auto& entry : parameters.values())
+    std::visit([&](const auto& value) { json[entry.first] = value; }, entry.second);
   return json;
 }
 
-SetupRun::SetupRun(gpu::Device& device, const Config& config, const std::vector<Case>& cases, std::shared_ptr<const Scene> scene,
-                   RunLog& log)
+SetupRun::SetupRun(gpu::Device& device, const Config& config, const std::vector<Case>& cases,
+                   std::shared_ptr<const Scene> scene, RunLog& log)
     : device_(device),
       config_(config),
       cases_(cases),
@@ -54,13 +55,15 @@ SetupRun::SetupRun(gpu::Device& device, const Config& config, const std::vector<
       }()),
       frame_([&] {
         auto span = log.span("programs");
-        return DeviceFrame(device, *workload_.scene(), workload_.effects(), workload_.frames().width(), workload_.frames().height());
+        return DeviceFrame(device, *workload_.scene(), workload_.effects(), workload_.frames().width(),
+                           workload_.frames().height());
       }()) {
   auto span = log_.span("programs");
   for (const Case& item : cases_) {
     const AlgorithmSpec& spec = setup_of(config_, cases_).algorithms[item.algorithm];
     const AlgorithmEntry& entry = find_algorithm(spec.name, item.id);
-    algorithms_.push_back(std::make_unique<ShadedAlgorithm>(device_, entry, spec.parameters, workload_.effects()));
+    algorithms_.push_back(
+        std::make_unique<ShadedAlgorithm>(device_, entry, spec.parameters, workload_.effects()));
     wants_lists_ |= entry.info.needs_contributing_lists;
     results_.push_back(empty_result(config_, item, workload_));
   }
@@ -96,7 +99,8 @@ void SetupRun::counting_lap(const Step& done) {
       spans_.clear();
       algorithms_[i]->prepare(*input_, spans_);
       algorithms_[i]->count(frame_, *input_);
-      FrameCounters counters = summarize(read_counts(frame_), frame_.contributing(), lit, algorithms_[i]->counters());
+      FrameCounters counters =
+          summarize(read_counts(frame_), frame_.contributing(), lit, algorithms_[i]->counters());
       for (const auto& [name, value] : counters.named()) results_[i].counters[name].push_back(value);
       done(1, "counting " + cases_[i].id);
     }
@@ -110,7 +114,8 @@ void SetupRun::counting_lap(const Step& done) {
 void SetupRun::timed_lap(uint32_t lap, const Step& done) {
   const bool measured = lap >= config_.measure.warmup;
   const uint32_t repeat = measured ? lap - config_.measure.warmup : 0;
-  const gpu::Timing timing = config_.measure.mode == TimingMode::stages ? gpu::Timing::stages : gpu::Timing::whole;
+  const gpu::Timing timing =
+      config_.measure.mode == TimingMode::stages ? gpu::Timing::stages : gpu::Timing::whole;
   const auto count = static_cast<uint32_t>(cases_.size());
   for (uint32_t index = 0; index < workload_.frames().frames(); ++index) {
     load(index, wants_lists_);
@@ -121,7 +126,8 @@ void SetupRun::timed_lap(uint32_t lap, const Step& done) {
       algorithm.prepare(*input_, spans_);
       auto prepared = Clock::now();
       gpu::SubmissionTimes times = algorithm.shade(frame_, *input_, timing);
-      double prepare_ms = milliseconds_between(begin, prepared), shade_ms = milliseconds_between(prepared, Clock::now());
+      double prepare_ms = milliseconds_between(begin, prepared),
+             shade_ms = milliseconds_between(prepared, Clock::now());
       log_.add("prepare", prepare_ms);
       log_.add("shade", shade_ms);
       done(1, (measured ? "timing " : "warming up ") + cases_[i].id);
@@ -149,7 +155,8 @@ void SetupRun::timed_lap(uint32_t lap, const Step& done) {
     }
   }
   if (!measured) return;
-  // Some samples are hit by the noise of a shared machine; a clock that cannot be believed is wrong in most of them.
+  // Some samples are hit by the noise of a shared machine; a clock that cannot be believed is wrong in most
+  // of them.
   for (size_t i = 0; i < cases_.size(); ++i) {
     uint32_t samples = (repeat + 1) * workload_.frames().frames();
     results_[i].timing_suspect = contradictions_[i] * 4 > samples;
@@ -162,7 +169,9 @@ void SetupRun::pictures(const std::filesystem::path& folder, const Step& done) {
   wanted.insert(wanted.end(), config_.outputs.images.begin(), config_.outputs.images.end());
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  auto has = [](const std::vector<uint32_t>& list, uint32_t frame) { return std::find(list.begin(), list.end(), frame) != list.end(); };
+  auto has = [](const std::vector<uint32_t>& list, uint32_t frame) {
+    return std::find(list.begin(), list.end(), frame) != list.end();
+  };
   for (uint32_t index : wanted) {
     load(index, true);
     auto span = log_.span("pictures");
@@ -178,9 +187,11 @@ void SetupRun::pictures(const std::filesystem::path& folder, const Step& done) {
         results_[i].images.insert(results_[i].images.end(), files.begin(), files.end());
       }
       if (has(config_.outputs.heatmaps, index)) {
-        uint32_t tile = results_[i].parameters.contains("tile") ? results_[i].parameters["tile"].get<uint32_t>() : 16;
-        std::vector<std::string> files = write_heat_maps(read_counts(frame_), lit, frame_.targets().width(),
-                                                         frame_.targets().height(), tile, folder, "heatmaps/" + stem);
+        uint32_t tile =
+            results_[i].parameters.contains("tile") ? results_[i].parameters["tile"].get<uint32_t>() : 16;
+        std::vector<std::string> files =
+            write_heat_maps(read_counts(frame_), lit, frame_.targets().width(), frame_.targets().height(),
+                            tile, folder, "heatmaps/" + stem);
         results_[i].heatmaps.insert(results_[i].heatmaps.end(), files.begin(), files.end());
       }
       done(1, "pictures of " + cases_[i].id);

@@ -17,7 +17,8 @@ nlohmann::json parameters_json(const Parameters& parameters);
 class SetupRun {
  public:
   // `cases` belong to this setup. Throws UsageError and SystemError.
-  SetupRun(gpu::Device& device, const Config& config, const std::vector<Case>& cases, std::shared_ptr<const Scene> scene, RunLog& log);
+  SetupRun(gpu::Device& device, const Config& config, const std::vector<Case>& cases,
+           std::shared_ptr<const Scene> scene, RunLog& log);
 
   // Every step calls `done` with the number of (case, frame) samples it stands for.
   using Step = std::function<void(uint64_t samples, const std::string& what)>;

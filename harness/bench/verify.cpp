@@ -52,7 +52,8 @@ Picture gathered(const Picture& picture, const std::vector<glm::uvec2>& blocks) 
       uint32_t x = blocks[b].x * 8 + i % 8, y = blocks[b].y * 8 + i / 8;
       if (x >= picture.width || y >= picture.height) continue;
       for (size_t channel = 0; channel < 3; ++channel)
-        result.data[result.pixel(i, static_cast<uint32_t>(b)) + channel] = picture.data[picture.pixel(x, y) + channel];
+        result.data[result.pixel(i, static_cast<uint32_t>(b)) + channel] =
+            picture.data[picture.pixel(x, y) + channel];
     }
   return result;
 }
@@ -96,7 +97,8 @@ class HeapMemory final : public UploadMemory {
   std::vector<std::vector<std::byte>> slots_;
 };
 
-bool same_for_all_thread_counts(const AlgorithmEntry& entry, const Parameters& parameters, const FrameInput& input, size_t limit) {
+bool same_for_all_thread_counts(const AlgorithmEntry& entry, const Parameters& parameters,
+                                const FrameInput& input, size_t limit) {
   std::optional<std::vector<std::vector<std::byte>>> first;
   for (unsigned count : {1u, 2u, 7u}) {
     Threads threads(count);
@@ -106,15 +108,18 @@ bool same_for_all_thread_counts(const AlgorithmEntry& entry, const Parameters& p
     HeapMemory memory(limit);
     Spans spans;
     algorithm->prepare(copy, memory, spans);
-    if (!first) first = memory.slots();
-    else if (*first != memory.slots()) return false;
+    if (!first)
+      first = memory.slots();
+    else if (*first != memory.slots())
+      return false;
   }
   return true;
 }
 
 class SetupProof {
  public:
-  SetupProof(gpu::Device& device, const Config& config, const std::vector<Case>& cases, const VerifyOptions& options)
+  SetupProof(gpu::Device& device, const Config& config, const std::vector<Case>& cases,
+             const VerifyOptions& options)
       : config_(config),
         setup_(config.setups[cases.front().setup]),
         cases_(cases),
@@ -124,6 +129,9 @@ class SetupProof {
         frame_(device, *workload_.scene(), workload_.effects(), setup_.width, setup_.height),
         tallies_(cases.size()) {
     const AlgorithmEntry& brute = entry_that([](const AlgorithmInfo& info) { return info.reference_only; });
+    if (size_t lights = workload_.lights().base().size();
+        brute.info.max_lights && lights > brute.info.max_lights)
+      throw UsageError(fmt::format("verify: {} lights, brute force holds {}", lights, brute.info.max_lights));
     Parameters single(brute.parameters);
     brute_ = std::make_unique<ShadedAlgorithm>(device, brute, single, workload_.effects());
     if (device.limits().fp64) {
@@ -131,12 +139,15 @@ class SetupProof {
       twice.set(brute.parameters, "precision", std::string("fp64"), "verify");
       brute64_ = std::make_unique<ShadedAlgorithm>(device, brute, twice, workload_.effects());
     }
-    const AlgorithmEntry& ideal = entry_that([](const AlgorithmInfo& info) { return info.needs_contributing_lists; });
-    ideal_ = std::make_unique<ShadedAlgorithm>(device, ideal, Parameters(ideal.parameters), workload_.effects());
+    const AlgorithmEntry& ideal =
+        entry_that([](const AlgorithmInfo& info) { return info.needs_contributing_lists; });
+    ideal_ =
+        std::make_unique<ShadedAlgorithm>(device, ideal, Parameters(ideal.parameters), workload_.effects());
     for (const Case& item : cases_) {
       const AlgorithmSpec& spec = setup_.algorithms[item.algorithm];
       entries_.push_back(&find_algorithm(spec.name, item.id));
-      algorithms_.push_back(std::make_unique<ShadedAlgorithm>(device, *entries_.back(), spec.parameters, workload_.effects()));
+      algorithms_.push_back(
+          std::make_unique<ShadedAlgorithm>(device, *entries_.back(), spec.parameters, workload_.effects()));
     }
   }
 
@@ -181,7 +192,8 @@ class SetupProof {
   Picture brute_image_, ideal_image_;
   double floor_ = 0;
   // Over all frames.
-  uint64_t reference_pixels_ = 0, reference_wrong_ = 0, oracle_points_ = 0, oracle_wrong_ = 0, oracle_marginal_ = 0;
+  uint64_t reference_pixels_ = 0, reference_wrong_ = 0, oracle_points_ = 0, oracle_wrong_ = 0,
+           oracle_marginal_ = 0;
   double oracle_worst_ = 0, fp64_worst_ = 0;
   uint32_t frames_ = 0;
 };
@@ -194,7 +206,8 @@ void SetupProof::prove_references(const FrameInput& input, uint32_t index) {
   floor_ = std::max(image_floor * mean_of(ideal_image_), 1e-30);
 
   uint64_t lights = std::max<uint64_t>(input.lights.count(), 1);
-  blocks_ = sampled_blocks(setup_.width, setup_.height, std::max<uint64_t>(options_.brute_force_tests / (64 * lights), 16),
+  blocks_ = sampled_blocks(setup_.width, setup_.height,
+                           std::max<uint64_t>(options_.brute_force_tests / (64 * lights), 16),
                            hash_u32(config_.measure.seed, index));
   brute_->prepare(input, spans);
   brute_->count_blocks(frame_, input, blocks_);
@@ -212,7 +225,8 @@ void SetupProof::prove_references(const FrameInput& input, uint32_t index) {
   if (brute64_) {
     brute64_->prepare(input, spans);
     brute64_->count_blocks(frame_, input, blocks_);
-    ImageDifference difference = compare_images(brute_image_, gathered(result_picture(frame_), blocks_), floor_);
+    ImageDifference difference =
+        compare_images(brute_image_, gathered(result_picture(frame_), blocks_), floor_);
     fp64_worst_ = std::max(fp64_worst_, difference.max_relative);
   }
   prove_oracle(input, index);
@@ -267,46 +281,58 @@ void SetupProof::prove_case(size_t i, const FrameInput& input) {
   tally.same_bytes &= digest == algorithm.upload_digest();
   algorithm.count(frame_, input);
   PixelCounts again = read_counts(frame_);
-  tally.same_bytes &= counts.listed == again.listed && counts.tested == again.tested && counts.contributing == again.contributing &&
-                      counts.nodes == again.nodes && counts.hash == again.hash;
+  tally.same_bytes &= counts.listed == again.listed && counts.tested == again.tested &&
+                      counts.contributing == again.contributing && counts.nodes == again.nodes &&
+                      counts.hash == again.hash;
   tally.differing += compare_images(result_picture(frame_), image).differing_bits;
   algorithm.shade(frame_, input, gpu::Timing::none);
   tally.differing += compare_images(result_picture(frame_), image).differing_bits;
   const Parameters& parameters = setup_.algorithms[cases_[i].algorithm].parameters;
-  tally.same_bytes &= same_for_all_thread_counts(*entries_[i], parameters, input, device_.limits().storage_buffer_range);
+  tally.same_bytes &=
+      same_for_all_thread_counts(*entries_[i], parameters, input, device_.limits().storage_buffer_range);
 }
 
 std::vector<Claim> SetupProof::claims() const {
-  std::string reference = fmt::format("{}, {} lights, {}x{}", setup_.scene_label, workload_.lights().base().size(), setup_.width,
-                                      setup_.height);
+  std::string reference = fmt::format("{}, {} lights, {}x{}", setup_.scene_label,
+                                      workload_.lights().base().size(), setup_.width, setup_.height);
   std::vector<Claim> list;
-  list.push_back({reference, "the reference lists are brute force's", reference_wrong_ == 0 && reference_pixels_ > 0,
-                  fmt::format("{} of {} sampled pixels differ, {} frames", reference_wrong_, reference_pixels_, frames_)});
+  list.push_back({reference, "the reference lists are brute force's",
+                  reference_wrong_ == 0 && reference_pixels_ > 0,
+                  fmt::format("{} of {} sampled pixels differ, {} frames", reference_wrong_,
+                              reference_pixels_, frames_)});
   list.push_back({reference, "the reference lists are the double-precision oracle's", oracle_wrong_ == 0,
-                  fmt::format("{} of {} points differ, {} more within rounding of a light's edge", oracle_wrong_, oracle_points_,
-                              oracle_marginal_)});
-  list.push_back({reference, "radiance is the double-precision oracle's within 1e-3", oracle_worst_ <= 1e-3,
-                  fmt::format("largest relative error {:.1e} over {} points", oracle_worst_, oracle_points_)});
+                  fmt::format("{} of {} points differ, {} more within rounding of a light's edge",
+                              oracle_wrong_, oracle_points_, oracle_marginal_)});
+  list.push_back(
+      {reference, "radiance is the double-precision oracle's within 1e-3", oracle_worst_ <= 1e-3,
+       fmt::format("largest relative error {:.1e} over {} points", oracle_worst_, oracle_points_)});
   if (brute64_)
-    list.push_back({reference, "brute force in single precision is its double within 1e-3", fp64_worst_ <= 1e-3,
-                    fmt::format("largest relative error {:.1e} over {} pixels", fp64_worst_, reference_pixels_)});
+    list.push_back(
+        {reference, "brute force in single precision is its double within 1e-3", fp64_worst_ <= 1e-3,
+         fmt::format("largest relative error {:.1e} over {} pixels", fp64_worst_, reference_pixels_)});
   for (size_t i = 0; i < cases_.size(); ++i) {
     const Tally& t = tallies_[i];
     const std::string& id = cases_[i].id;
     if (entries_[i]->info.exact) {
       list.push_back({id, "no light lost, none twice", t.lost == 0 && t.mismatched == 0,
-                      fmt::format("lost {}, {} of {} pixels differ, {} lights, {} frames", t.lost, t.mismatched, t.pixels, t.lights,
-                                  frames_)});
-      list.push_back({id, fmt::format("image is brute force's within {:.0e}", image_tolerance), t.worst <= image_tolerance,
-                      fmt::format("largest relative error {:.1e} over {} sampled pixels (floor {:.0e} of the mean)", t.worst, t.sampled,
-                                  image_floor)});
-      list.push_back({id, fmt::format("image is ideal's within {:.0e}", image_tolerance), t.worst_ideal <= image_tolerance,
+                      fmt::format("lost {}, {} of {} pixels differ, {} lights, {} frames", t.lost,
+                                  t.mismatched, t.pixels, t.lights, frames_)});
+      list.push_back(
+          {id, fmt::format("image is brute force's within {:.0e}", image_tolerance),
+           t.worst <= image_tolerance,
+           fmt::format("largest relative error {:.1e} over {} sampled pixels (floor {:.0e} of the mean)",
+                       t.worst, t.sampled, image_floor)});
+      list.push_back({id, fmt::format("image is ideal's within {:.0e}", image_tolerance),
+                      t.worst_ideal <= image_tolerance,
                       fmt::format("largest relative error {:.1e} over {} pixels", t.worst_ideal, t.pixels)});
     }
-    list.push_back({id, "every pixel is finite", t.not_finite == 0, fmt::format("{} of {} are not", t.not_finite, t.pixels)});
-    list.push_back({id, "same inputs, same bits", t.same_bytes && t.differing == 0,
-                    fmt::format("counters and images of two runs, uploads of 1, 2 and 7 threads: {}",
-                                t.same_bytes && t.differing == 0 ? "identical" : fmt::format("{} pixels differ", t.differing))});
+    list.push_back({id, "every pixel is finite", t.not_finite == 0,
+                    fmt::format("{} of {} are not", t.not_finite, t.pixels)});
+    list.push_back(
+        {id, "same inputs, same bits", t.same_bytes && t.differing == 0,
+         fmt::format(
+             "counters and images of two runs, uploads of 1, 2 and 7 threads: {}",
+             t.same_bytes && t.differing == 0 ? "identical" : fmt::format("{} pixels differ", t.differing))});
   }
   return list;
 }
@@ -315,9 +341,12 @@ std::vector<Claim> SetupProof::claims() const {
 
 std::vector<Claim> verify_config(const Config& config, const VerifyOptions& options,
                                  const std::function<void(const Claim&)>& report) {
+  std::vector<const Setup*> setups;
+  for (const Setup& setup : config.setups) setups.push_back(&setup);
+  check_workloads(setups);
   gpu::Device device({options.device, options.validation});
   if (!options.quiet)
-    fmt::print(stderr, "device: {} ({}, {})\n", device.info().name, device.info().type, device.info().driver);
+    fmt::print("device: {} ({}, {})\n", device.info().name, device.info().type, device.info().driver);
   std::vector<Case> cases = expand_cases(config);
   uint64_t steps = 0;
   for (const Setup& setup : config.setups)

@@ -21,23 +21,28 @@ struct Claim {
 struct VerifyOptions {
   std::string device;
   bool validation = false;
-  uint32_t frames = 3;              // per setup, spread over the path; 0: all
-  uint64_t brute_force_tests = 400'000'000;  // light evaluations that the sampled brute force may cost per frame
-  uint32_t oracle_points = 64;      // surface points per frame for the double-precision oracle
+  uint32_t frames = 3;  // per setup, spread over the path; 0: all
+  uint64_t brute_force_tests =
+      400'000'000;              // light evaluations that the sampled brute force may cost per frame
+  uint32_t oracle_points = 64;  // surface points per frame for the double-precision oracle
   bool quiet = false;
 };
 
-// Pixels differ from the reference by no more than this part of the reference's own value; values below the floor (this part of the
-// picture's mean luminance) are compared with the floor.
+// Pixels differ from the reference by no more than this part of the reference's own value; values below the
+// floor (this part of the picture's mean luminance) are compared with the floor.
 inline constexpr double image_tolerance = 1e-4, image_floor = 1e-4;
 
 // Checks, for each setup on the frames asked for:
-//  - `contributing` (the reference lists) against brute force on sampled 8x8 blocks, count and set, and against the double-precision oracle
+//  - `contributing` (the reference lists) against brute force on sampled 8x8 blocks, count and set, and
+//  against the double-precision oracle
 //    at sampled points;
 //  - brute force in single against double precision, where the device has it;
-//  - for each exact case: lost = 0 and no light twice on every pixel; image equal to brute force on the sampled blocks and to `ideal` on all
-//    others; nothing NaN or infinite; the same bytes from 1, 2 and 7 threads; the same image bits and counters on a second run.
+//  - for each exact case: lost = 0 and no light twice on every pixel; image equal to brute force on the
+//  sampled blocks and to `ideal` on all
+//    others; nothing NaN or infinite; the same bytes from 1, 2 and 7 threads; the same image bits and
+//    counters on a second run.
 // `report` is called with each claim as it is settled. Returns all of them.
-std::vector<Claim> verify_config(const Config& config, const VerifyOptions& options, const std::function<void(const Claim&)>& report);
+std::vector<Claim> verify_config(const Config& config, const VerifyOptions& options,
+                                 const std::function<void(const Claim&)>& report);
 
 }  // namespace ml

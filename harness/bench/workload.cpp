@@ -21,8 +21,20 @@ CameraPath path_of(const CameraSpec& spec, const Scene& scene) {
 }  // namespace
 
 bool same_scene(const SceneSpec& a, const SceneSpec& b) {
-  return a.procedural == b.procedural && a.gltf == b.gltf && a.gltf_scene == b.gltf_scene && a.seed == b.seed && a.offset == b.offset &&
-         a.two_sided == b.two_sided;
+  return a.procedural == b.procedural && a.gltf == b.gltf && a.gltf_scene == b.gltf_scene &&
+         a.seed == b.seed && a.offset == b.offset && a.two_sided == b.two_sided;
+}
+
+std::shared_ptr<const Scene> check_workloads(const std::vector<const Setup*>& setups) {
+  std::shared_ptr<const Scene> first, scene;
+  const Setup* before = nullptr;
+  for (const Setup* setup : setups) {
+    if (before && !same_scene(before->scene, setup->scene)) scene = nullptr;
+    scene = Workload(*setup, 1, scene).scene();
+    before = setup;
+    if (!first) first = scene;
+  }
+  return first;
 }
 
 Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const Scene> scene)
@@ -35,7 +47,8 @@ Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const S
   effects_.spots = spots && setup.effects.spots;
   effects_.specular = setup.effects.specular;
   effects_.alpha_mask = setup.effects.alpha_mask && Level::has_masked_material(*scene_);
-  frames_ = std::make_unique<FrameSequence>(*scene_, *lights_, path_, setup.camera.frames, setup.width, setup.height, threads_);
+  frames_ = std::make_unique<FrameSequence>(*scene_, *lights_, path_, setup.camera.frames, setup.width,
+                                            setup.height, threads_);
 }
 
 }  // namespace ml

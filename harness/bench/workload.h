@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "harness/config/config.h"
 #include "harness/frame/device_frame.h"
@@ -11,8 +12,8 @@ namespace ml {
 
 class Workload {
  public:
-  // Throws UsageError for scenes, paths and lights that cannot be had. `threads` is the number for prepare(). A `scene` that was loaded
-  // for the same SceneSpec before can be handed in again.
+  // Throws UsageError for scenes, paths and lights that cannot be had. `threads` is the number for prepare().
+  // A `scene` that was loaded for the same SceneSpec before can be handed in again.
   Workload(const Setup& setup, unsigned threads, std::shared_ptr<const Scene> scene = nullptr);
 
   const std::shared_ptr<const Scene>& scene() const { return scene_; }
@@ -32,5 +33,9 @@ class Workload {
 };
 
 bool same_scene(const SceneSpec& a, const SceneSpec& b);
+
+// Makes the workload of each setup once and lets it go: what cannot be had (UsageError) is known before any
+// work starts. Returns the scene of the first one.
+std::shared_ptr<const Scene> check_workloads(const std::vector<const Setup*>& setups);
 
 }  // namespace ml

@@ -1,4 +1,5 @@
-// The sub-commands. Each registers its options with the parser and leaves behind what to do when it is called.
+// The sub-commands. Each registers its options with the parser and leaves behind what to do when it is
+// called.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -11,7 +11,9 @@ namespace ml {
 void add_doctor(CLI::App& app, Action& action) {
   auto device = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("doctor", "Devices, timers, calibration and noise of this machine");
-  command->footer("Exit code 1 when the device's times cannot be trusted. The overhead of a run is in its result (harness.overhead_fraction).");
+  command->footer(
+      "Exit code 1 when the device's times cannot be trusted. The overhead of a run is in its result "
+      "(harness.overhead_fraction).");
   command->add_option("--device", *device, "Vulkan device: part of its name, index or UUID");
   command->callback([device, &action] {
     action = [device] {

@@ -19,8 +19,11 @@ struct Row {
 // Counters and times of a result, for `list metrics`.
 const std::vector<Row>& metrics() {
   static const std::vector<Row> rows{
-      {"cpu_ms", "prepare() on the CPU by stage (cull, sort, bin, build, upload) and in total, [repeat][frame]"},
-      {"gpu_ms", "the device's time by pass (cull, shade) and in total, [repeat][frame]; on a software device this is CPU time"},
+      {"cpu_ms",
+       "prepare() on the CPU by stage (cull, sort, bin, build, upload) and in total, [repeat][frame]"},
+      {"gpu_ms",
+       "the device's time by pass (cull, shade) and in total, [repeat][frame]; on a software device this is "
+       "CPU time"},
       {"in_frustum", "lights left after culling against the view, per frame"},
       {"listed", "lights in the list that a pixel walks, mean over lit pixels"},
       {"tested", "lights whose volume was tested for a pixel, mean over lit pixels"},
@@ -42,7 +45,8 @@ const std::vector<Row>& effects() {
       {"omni", "point lights; always there"},
       {"spot", "cones; compiled in when a light of the scene is a spot (effects.spots: auto | off)"},
       {"specular", "GGX highlights (effects.specular: auto | off)"},
-      {"alpha_mask", "cut-out materials; when a material of the scene has a mask (effects.alpha_mask: auto | off)"},
+      {"alpha_mask",
+       "cut-out materials; when a material of the scene has a mask (effects.alpha_mask: auto | off)"},
   };
   return rows;
 }
@@ -62,7 +66,9 @@ json algorithms_json() {
     for (const ParameterInfo& info : entry.parameters) {
       json fallback;
       std::visit([&](const auto& value) { fallback = value; }, info.fallback);
-      parameters.push_back({{"name", info.name}, {"default", fallback}, {info.choices.empty() ? "range" : "choices", range_of(info)},
+      parameters.push_back({{"name", info.name},
+                            {"default", fallback},
+                            {info.choices.empty() ? "range" : "choices", range_of(info)},
                             {"help", info.help}});
     }
     list.push_back({{"name", entry.info.name},
@@ -82,7 +88,8 @@ void print_algorithms() {
                entry["exact"].get<bool>() ? "" : " (stochastic)");
     if (std::string paper = entry["paper"]; !paper.empty()) fmt::print("{:12} {}\n", "", paper);
     for (const json& parameter : entry["parameters"])
-      fmt::print("{:12}   {} = {}  {}\n{:16} {}\n", "", parameter["name"].get<std::string>(), parameter["default"].dump(),
+      fmt::print("{:12}   {} = {}  {}\n{:16} {}\n", "", parameter["name"].get<std::string>(),
+                 parameter["default"].dump(),
                  parameter.contains("range") ? parameter["range"].dump() : parameter["choices"].dump(), "",
                  parameter["help"].get<std::string>());
   }
@@ -108,11 +115,14 @@ std::vector<Row> rows_of(const std::string& what) {
     for (const ConfigInfo& info : known_configs()) rows.push_back({info.name, info.summary});
   else if (what == "devices")
     for (const gpu::DeviceInfo& info : gpu::list_devices())
-      rows.push_back({fmt::format("{}: {}", info.index, info.name),
-                      fmt::format("{}, Vulkan {}, {}, UUID {}{}", info.type, info.api_version, info.driver, info.uuid,
-                                  info.missing.empty() ? "" : "; cannot be used, lacks " + info.missing)});
-  else if (what == "metrics") rows = metrics();
-  else rows = effects();
+      rows.push_back(
+          {fmt::format("{}: {}", info.index, info.name),
+           fmt::format("{}, Vulkan {}, {}, UUID {}{}", info.type, info.api_version, info.driver, info.uuid,
+                       info.missing.empty() ? "" : "; cannot be used, lacks " + info.missing)});
+  else if (what == "metrics")
+    rows = metrics();
+  else
+    rows = effects();
   return rows;
 }
 
@@ -121,8 +131,10 @@ ExitCode list(const std::string& what, bool as_json) {
   if (std::find(known.begin(), known.end(), what) == known.end())
     throw UsageError("list '" + what + "': unknown" + suggestion(what, known));
   if (what == "algorithms") {
-    if (as_json) fmt::print("{}\n", algorithms_json().dump(2));
-    else print_algorithms();
+    if (as_json)
+      fmt::print("{}\n", algorithms_json().dump(2));
+    else
+      print_algorithms();
   } else if (std::vector<Row> rows = rows_of(what); as_json) {
     fmt::print("{}\n", rows_json(rows).dump(2));
   } else {
@@ -136,8 +148,10 @@ ExitCode list(const std::string& what, bool as_json) {
 void add_list(CLI::App& app, Action& action) {
   auto what = std::make_shared<std::string>("algorithms");
   auto as_json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("list", "List algorithms with their parameters, scenes, configurations, devices, metrics or effects");
-  command->add_option("WHAT", *what, "algorithms, scenes, configs, devices, metrics or effects")->capture_default_str();
+  CLI::App* command = app.add_subcommand(
+      "list", "List algorithms with their parameters, scenes, configurations, devices, metrics or effects");
+  command->add_option("WHAT", *what, "algorithms, scenes, configs, devices, metrics or effects")
+      ->capture_default_str();
   command->add_flag("--json", *as_json, "As JSON");
   command->callback([what, as_json, &action] { action = [what, as_json] { return list(*what, *as_json); }; });
 }

@@ -11,7 +11,8 @@
 namespace {
 
 constexpr const char* about =
-    "The test bench for many-light algorithms: every algorithm behind one interface, over the same g-buffer,\n"
+    "The test bench for many-light algorithms: every algorithm behind one interface, over the same "
+    "g-buffer,\n"
     "lights and shading code, replayed along the same camera paths, with every number proven and repeatable.";
 
 constexpr const char* examples =

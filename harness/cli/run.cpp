@@ -22,7 +22,8 @@ void parse_shard(const std::string& text, RunOptions& options) {
   if (text.empty()) return;
   unsigned index = 0, count = 0;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%u/%u%c", &index, &count, &rest) != 2 || index < 1 || index > count || count > 10000)
+  if (std::sscanf(text.c_str(), "%u/%u%c", &index, &count, &rest) != 2 || index < 1 || index > count ||
+      count > 10000)
     throw UsageError("--shard '" + text + "': expected I/N with 1 <= I <= N, such as 2/8");
   options.shard = index - 1;
   options.shards = count;
@@ -45,7 +46,8 @@ ExitCode run(const Arguments& arguments) {
     Result result = run_config(config, options);
     fmt::print("{}\n", summary_table(result));
     fmt::print("harness overhead: {:.1f} % of {:.1f} s; peak memory {:.0f} MB\n",
-               100 * result.harness["overhead_fraction"].get<double>(), result.harness["wall_ms"].get<double>() / 1000,
+               100 * result.harness["overhead_fraction"].get<double>(),
+               result.harness["wall_ms"].get<double>() / 1000,
                result.harness["peak_memory_bytes"].get<double>() / 1e6);
     fmt::print("result: {}\n", (out / "result.json").string());
   }
@@ -56,7 +58,8 @@ ExitCode run(const Arguments& arguments) {
 
 void add_run(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("run", "Measure the cases of configurations and write result.json, heat maps and pictures");
+  CLI::App* command = app.add_subcommand(
+      "run", "Measure the cases of configurations and write result.json, heat maps and pictures");
   command->footer(
       "CONFIG is a file or the name of a shipped configuration (manylights list configs).\n"
       "Examples\n"
@@ -66,16 +69,24 @@ void add_run(CLI::App& app, Action& action) {
       "  manylights run big.json --resume           go on after an interruption\n"
       "  manylights run big.json --shard 2/8        the second of eight shares, for a cluster");
   command->add_option("CONFIG", arguments->configs, "Configurations")->required();
-  command->add_option("--out", arguments->out, "Folder of the result (default: out/NAME; with several configurations OUT/NAME)");
-  command->add_option("--set", arguments->overrides, "Override KEY=VALUE, the value as JSON; may be given several times")
+  command->add_option("--out", arguments->out,
+                      "Folder of the result (default: out/NAME; with several configurations OUT/NAME)");
+  command
+      ->add_option("--set", arguments->overrides,
+                   "Override KEY=VALUE, the value as JSON; may be given several times")
       ->take_all()
       ->allow_extra_args(false);
-  command->add_option("--filter", arguments->options.filter, "Only cases whose id this regular expression matches");
-  command->add_option("--device", arguments->options.device, "Vulkan device: part of its name, index or UUID");
+  command->add_option("--filter", arguments->options.filter,
+                      "Only cases whose id this regular expression matches");
+  command->add_option("--device", arguments->options.device,
+                      "Vulkan device: part of its name, index or UUID");
   command->add_option("--shard", arguments->shard, "I/N: only the I-th of N shares of the setups");
-  command->add_flag("--resume", arguments->options.resume, "Keep the complete cases of the result that is already there");
-  command->add_flag("--dry-run", arguments->dry_run, "Only list the cases, with an estimate of time and memory");
-  command->add_flag("--validation", arguments->options.validation, "Run with the validation layer (times are then worthless)");
+  command->add_flag("--resume", arguments->options.resume,
+                    "Keep the complete cases of the result that is already there");
+  command->add_flag("--dry-run", arguments->dry_run,
+                    "Only list the cases, with an estimate of time and memory");
+  command->add_flag("--validation", arguments->options.validation,
+                    "Run with the validation layer (times are then worthless)");
   command->add_flag("--quiet", arguments->options.quiet, "No progress");
   command->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }

@@ -32,21 +32,33 @@ ExitCode verify(const Arguments& arguments) {
 
 void add_verify(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("verify", "Prove the claims of a configuration; exit code 1 if one fails");
+  CLI::App* command =
+      app.add_subcommand("verify", "Prove the claims of a configuration; exit code 1 if one fails");
   command->footer(
-      "Proves for every case: no light lost and none evaluated twice, on every pixel; the image is brute force's and ideal's\n"
-      "within 1e-4; nothing is NaN or infinite; two runs and 1, 2 and 7 threads give the same bits. And for the reference: its\n"
+      "Proves for every case: no light lost and none evaluated twice, on every pixel; the image is brute "
+      "force's and ideal's\n"
+      "within 1e-4; nothing is NaN or infinite; two runs and 1, 2 and 7 threads give the same bits. And for "
+      "the reference: its\n"
       "lists of contributing lights are brute force's and a double-precision oracle's.\n"
       "Example: manylights verify quick --set lights.count=65536 --frames 2");
   command->add_option("CONFIG", arguments->config, "Configuration")->required();
-  command->add_option("--set", arguments->overrides, "Override KEY=VALUE")->take_all()->allow_extra_args(false);
-  command->add_option("--frames", arguments->options.frames, "Frames per setup, spread over the path; 0: all")->capture_default_str();
-  command->add_option("--brute-force", arguments->options.brute_force_tests, "Light evaluations of sampled brute force per frame")
+  command->add_option("--set", arguments->overrides, "Override KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_option("--frames", arguments->options.frames, "Frames per setup, spread over the path; 0: all")
       ->capture_default_str();
-  command->add_option("--oracle-points", arguments->options.oracle_points, "Surface points per frame for the oracle")
+  command
+      ->add_option("--brute-force", arguments->options.brute_force_tests,
+                   "Light evaluations of sampled brute force per frame")
       ->capture_default_str();
-  command->add_option("--device", arguments->options.device, "Vulkan device: part of its name, index or UUID");
-  command->add_flag("--validation", arguments->options.validation, "Run with the validation layer; a message is a failed claim");
+  command
+      ->add_option("--oracle-points", arguments->options.oracle_points,
+                   "Surface points per frame for the oracle")
+      ->capture_default_str();
+  command->add_option("--device", arguments->options.device,
+                      "Vulkan device: part of its name, index or UUID");
+  command->add_flag("--validation", arguments->options.validation,
+                    "Run with the validation layer; a message is a failed claim");
   command->add_flag("--quiet", arguments->options.quiet, "No progress");
   command->callback([arguments, &action] { action = [arguments] { return verify(*arguments); }; });
 }

@@ -48,8 +48,10 @@ gpu::SubmissionTimes CalibrationPasses::run(const std::vector<Kind>& order) {
   commands_.begin(gpu::Timing::stages);
   for (size_t i = 0; i < order.size(); ++i) {
     auto span = commands_.span(std::to_string(i));
-    if (order[i] == Kind::raster) level_.record_gbuffer(commands_, view_, targets_);
-    else commands_.dispatch(compute_, {{"Sink", sink_}}, steps, threads / group);
+    if (order[i] == Kind::raster)
+      level_.record_gbuffer(commands_, view_, targets_);
+    else
+      commands_.dispatch(compute_, {{"Sink", sink_}}, steps, threads / group);
   }
   return commands_.submit();
 }

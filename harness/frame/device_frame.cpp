@@ -52,21 +52,26 @@ struct DeviceFrame::ContributingPasses {
         masks(device, contributing_masks, "contributing: masks", effect_constants(effects)),
         count(device, contributing_count, "contributing: count", effect_constants(effects)),
         fill(device, contributing_fill, "contributing: fill", effect_constants(effects)),
-        count_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage, "contributing counts"),
-        hash_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage, "contributing hashes"),
+        count_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage,
+                    "contributing counts"),
+        hash_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage,
+                   "contributing hashes"),
         offsets(device, "offsets of the contributing lists") {
     offsets.map(16);
     indices = std::make_unique<gpu::Buffer>(device, 16, gpu::MemoryKind::device, "contributing lists");
   }
 
   // Grows, never shrinks.
-  static void reserve(gpu::Device& device, std::unique_ptr<gpu::Buffer>& buffer, size_t bytes, const char* name) {
+  static void reserve(gpu::Device& device, std::unique_ptr<gpu::Buffer>& buffer, size_t bytes,
+                      const char* name) {
     if (!buffer || buffer->bytes() < bytes)
-      buffer = std::make_unique<gpu::Buffer>(device, std::max<size_t>(bytes, 16), gpu::MemoryKind::device, name);
+      buffer =
+          std::make_unique<gpu::Buffer>(device, std::max<size_t>(bytes, 16), gpu::MemoryKind::device, name);
   }
 };
 
-DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const Effects& effects, uint32_t width, uint32_t height)
+DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const Effects& effects, uint32_t width,
+                         uint32_t height)
     : device_(device),
       effects_(effects),
       level_(device, scene, effects.alpha_mask),
@@ -105,9 +110,10 @@ gpu::Bindings DeviceFrame::bindings() const {
                      {"ListOffsets", passes_->offsets},
                      {"ListIndices", *passes_->indices}};
   if (counters_)
-    for (gpu::Binding binding : {gpu::Binding{"Listed", counters_->listed}, gpu::Binding{"Tested", counters_->tested},
-                                 gpu::Binding{"Contributing", counters_->contributing}, gpu::Binding{"Nodes", counters_->nodes},
-                                 gpu::Binding{"Hash", counters_->hash}, gpu::Binding{"Traversal", counters_->traversal}})
+    for (gpu::Binding binding :
+         {gpu::Binding{"Listed", counters_->listed}, gpu::Binding{"Tested", counters_->tested},
+          gpu::Binding{"Contributing", counters_->contributing}, gpu::Binding{"Nodes", counters_->nodes},
+          gpu::Binding{"Hash", counters_->hash}, gpu::Binding{"Traversal", counters_->traversal}})
       list.push_back(binding);
   return list;
 }
@@ -122,8 +128,10 @@ const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input
   gpu_data::ContributingPush push{{groups(width, ML_BLOCK), groups(height, ML_BLOCK)},
                                   groups(static_cast<uint32_t>(input.lights.count()), 32)};
   uint32_t groups_across = groups(push.blocks.x, ML_GROUP), groups_down = groups(push.blocks.y, ML_GROUP);
-  p.reserve(device_, p.block_bounds, size_t{push.blocks.x} * push.blocks.y * sizeof(gpu_data::BlockBounds), "block bounds");
-  p.reserve(device_, p.mask_words, size_t{groups_across} * groups_down * push.mask_words * 4, "light masks of the block groups");
+  p.reserve(device_, p.block_bounds, size_t{push.blocks.x} * push.blocks.y * sizeof(gpu_data::BlockBounds),
+            "block bounds");
+  p.reserve(device_, p.mask_words, size_t{groups_across} * groups_down * push.mask_words * 4,
+            "light masks of the block groups");
   auto with_lists = [&] {
     gpu::Bindings list = bindings();
     list.emplace_back("Bounds", *p.block_bounds);
@@ -155,8 +163,9 @@ const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input
   }
   offsets[pixels] = static_cast<uint32_t>(total);
   if (total * 4 > device_.limits().storage_buffer_range)
-    throw SystemError(fmt::format("the lists of contributing lights need {} bytes at {}x{} px; one storage buffer of '{}' holds {}",
-                                  total * 4, width, height, device_.info().name, device_.limits().storage_buffer_range));
+    throw SystemError(fmt::format(
+        "the lists of contributing lights need {} bytes at {}x{} px; one storage buffer of '{}' holds {}",
+        total * 4, width, height, device_.info().name, device_.limits().storage_buffer_range));
   p.reserve(device_, p.indices, total * 4, "contributing lists");
   list = with_lists();
   commands_.begin(gpu::Timing::none);
@@ -191,7 +200,8 @@ std::vector<float> DeviceFrame::read_floats(const gpu::Image& image) {
 std::vector<float> DeviceFrame::read_aov(Aov kind) {
   gpu::ComputeProgram program(device_, aov_comp, "aov", {{0, static_cast<uint32_t>(kind)}});
   commands_.begin(gpu::Timing::none);
-  commands_.dispatch(program, bindings(), std::span<const std::byte>{}, groups(targets_.width(), 8), groups(targets_.height(), 8));
+  commands_.dispatch(program, bindings(), std::span<const std::byte>{}, groups(targets_.width(), 8),
+                     groups(targets_.height(), 8));
   commands_.submit();
   return read_floats(targets_.result);
 }

@@ -1,4 +1,5 @@
-// One setup on the device: level, targets, the frame's view and lights, and everything that all algorithms share.
+// One setup on the device: level, targets, the frame's view and lights, and everything that all algorithms
+// share.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,8 @@ struct Effects {
   std::vector<std::string> names() const;  // those that are on, "omni" first
 };
 
-// Per-pixel counts of contributing lights, found without any algorithm under test, and on demand the lists themselves.
+// Per-pixel counts of contributing lights, found without any algorithm under test, and on demand the lists
+// themselves.
 struct ContributingLights {
   std::vector<uint32_t> count;  // per pixel
   std::vector<uint32_t> hash;   // per pixel: sum of light_hash over the set
@@ -28,15 +30,17 @@ struct ContributingLights {
 
 class DeviceFrame {
  public:
-  DeviceFrame(gpu::Device& device, const Scene& scene, const Effects& effects, uint32_t width, uint32_t height);
+  DeviceFrame(gpu::Device& device, const Scene& scene, const Effects& effects, uint32_t width,
+              uint32_t height);
   ~DeviceFrame();
 
   // Uploads view and lights of the frame and draws the g-buffer.
   void load(const FrameInput& input);
 
-  // Finds the contributing lights of the loaded frame (bounds of each 8x8 block's points against every light, then every pixel against
-  // what is left). With `lists` their indices stay on the device for shading passes that bind "ListOffsets" and "ListIndices". Throws
-  // SystemError when the lists are larger than one storage buffer of the device.
+  // Finds the contributing lights of the loaded frame (bounds of each 8x8 block's points against every light,
+  // then every pixel against what is left). With `lists` their indices stay on the device for shading passes
+  // that bind "ListOffsets" and "ListIndices". Throws SystemError when the lists are larger than one storage
+  // buffer of the device.
   const ContributingLights& find_contributing(const FrameInput& input, bool lists);
   const ContributingLights& contributing() const { return contributing_; }
 
@@ -54,7 +58,8 @@ class DeviceFrame {
   // Reads a picture back, row by row.
   std::vector<uint32_t> read_words(const gpu::Image& image);
   std::vector<float> read_floats(const gpu::Image& image);
-  // Position, normal, albedo or material of the g-buffer, four floats a pixel (the fourth is the view depth, 0 for the sky).
+  // Position, normal, albedo or material of the g-buffer, four floats a pixel (the fourth is the view depth,
+  // 0 for the sky).
   enum class Aov : uint32_t { position = 0, normal = 1, albedo = 2, material = 3 };
   std::vector<float> read_aov(Aov kind);
 

@@ -13,7 +13,8 @@ constexpr size_t padding = 16;
 gpu_data::LightExtra cone_of(const Light& light) {
   gpu_data::LightExtra extra{};
   extra.direction = light.direction;
-  double inner = std::cos(static_cast<double>(light.inner_angle)), outer = std::cos(static_cast<double>(light.outer_angle));
+  double inner = std::cos(static_cast<double>(light.inner_angle)),
+         outer = std::cos(static_cast<double>(light.outer_angle));
   // A cone without a soft edge still needs a finite slope.
   double scale = 1.0 / std::max(inner - outer, 1e-6);
   extra.cone_scale = static_cast<float>(scale);
@@ -48,7 +49,8 @@ void FrameLightStorage::fill(const std::vector<Light>& lights, const glm::vec3& 
   count_ = lights.size();
   for (std::vector<float>* column : {&x_, &y_, &z_, &radius_}) column->resize(count_ + padding);
   core_.resize(count_);
-  bool spots = std::any_of(lights.begin(), lights.end(), [](const Light& light) { return light.shape == LightShape::spot; });
+  bool spots = std::any_of(lights.begin(), lights.end(),
+                           [](const Light& light) { return light.shape == LightShape::spot; });
   extra_.resize(spots ? count_ : 0);
   const glm::dvec3 eye(camera);
   for (size_t i = 0; i < count_; ++i) {
@@ -58,7 +60,8 @@ void FrameLightStorage::fill(const std::vector<Light>& lights, const glm::vec3& 
     y_[i] = position.y;
     z_[i] = position.z;
     radius_[i] = light.radius;
-    core_[i] = {position, light.radius, light.intensity, static_cast<uint32_t>(i) | static_cast<uint32_t>(light.shape) << 24};
+    core_[i] = {position, light.radius, light.intensity,
+                static_cast<uint32_t>(i) | static_cast<uint32_t>(light.shape) << 24};
     if (spots && light.shape == LightShape::spot) extra_[i] = cone_of(light);
   }
 }
@@ -74,8 +77,8 @@ FrameLights FrameLightStorage::lights() const {
   return lights;
 }
 
-FrameSequence::FrameSequence(const Scene& scene, const LightSet& lights, const CameraPath& path, uint32_t frames, uint32_t width,
-                             uint32_t height, Threads& threads)
+FrameSequence::FrameSequence(const Scene& scene, const LightSet& lights, const CameraPath& path,
+                             uint32_t frames, uint32_t width, uint32_t height, Threads& threads)
     : scene_(scene), set_(lights), path_(path), frames_(frames), width_(width), height_(height) {
   input_.threads = &threads;
 }

@@ -1,5 +1,5 @@
-// What one frame is made of, on the CPU: the camera's view and the lights, camera-relative. No Vulkan: prepare() is tested and
-// benchmarked on exactly what a run gives it.
+// What one frame is made of, on the CPU: the camera's view and the lights, camera-relative. No Vulkan:
+// prepare() is tested and benchmarked on exactly what a run gives it.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ class FrameLightStorage {
 class FrameSequence {
  public:
   // The scene, the lights and the threads must outlive the sequence.
-  FrameSequence(const Scene& scene, const LightSet& lights, const CameraPath& path, uint32_t frames, uint32_t width, uint32_t height,
-                Threads& threads);
+  FrameSequence(const Scene& scene, const LightSet& lights, const CameraPath& path, uint32_t frames,
+                uint32_t width, uint32_t height, Threads& threads);
 
   // The input of a frame, 0 <= index < frames(); valid until the next call.
   const FrameInput& at(uint32_t index);

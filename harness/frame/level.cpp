@@ -18,7 +18,8 @@ gpu::Buffer filled(gpu::Device& device, const std::vector<Element>& elements, co
 }
 
 gpu::Image uploaded(gpu::Device& device, gpu::Commands& commands, const Texture& texture) {
-  gpu::Image image(device, texture.width, texture.height, gpu::Format::rgba8_srgb, gpu::ImageUse::texture, "texture " + texture.name);
+  gpu::Image image(device, texture.width, texture.height, gpu::Format::rgba8_srgb, gpu::ImageUse::texture,
+                   "texture " + texture.name);
   gpu::Buffer staging = filled(device, texture.rgba, "texture staging");
   commands.begin(gpu::Timing::none);
   commands.write_image(staging, image);
@@ -30,40 +31,50 @@ std::unique_ptr<gpu::RasterProgram> gbuffer_program(gpu::Device& device, bool ma
   gpu::RasterState state;
   state.colors = {gpu::Format::rg32_uint};
   state.vertex_stride = sizeof(Vertex);
-  state.attributes = {{offsetof(Vertex, position), 3}, {offsetof(Vertex, normal), 3}, {offsetof(Vertex, uv), 2}};
-  return std::make_unique<gpu::RasterProgram>(device, gbuffer_vert, gbuffer_frag, masked ? "gbuffer (alpha mask)" : "gbuffer", state,
+  state.attributes = {
+      {offsetof(Vertex, position), 3}, {offsetof(Vertex, normal), 3}, {offsetof(Vertex, uv), 2}};
+  return std::make_unique<gpu::RasterProgram>(device, gbuffer_vert, gbuffer_frag,
+                                              masked ? "gbuffer (alpha mask)" : "gbuffer", state,
                                               std::vector<gpu::Constant>{{0, masked}});
 }
 
 }  // namespace
 
 bool Level::has_masked_material(const Scene& scene) {
-  return std::any_of(scene.draws.begin(), scene.draws.end(),
-                     [&](const Draw& draw) { return scene.materials[draw.material].alpha_mode == AlphaMode::mask; });
+  return std::any_of(scene.draws.begin(), scene.draws.end(), [&](const Draw& draw) {
+    return scene.materials[draw.material].alpha_mode == AlphaMode::mask;
+  });
 }
 
 Level::Level(gpu::Device& device, const Scene& scene, bool alpha_mask)
-    : vertices_(filled(device, scene.vertices, "vertices")), indices_(filled(device, scene.indices, "indices")) {
+    : vertices_(filled(device, scene.vertices, "vertices")),
+      indices_(filled(device, scene.indices, "indices")) {
   gpu::Commands commands(device);
   for (const Texture& texture : scene.textures) textures_.push_back(uploaded(device, commands, texture));
   textures_.push_back(uploaded(device, commands, Texture{"white", 1, 1, {255, 255, 255, 255}}));
   for (const Draw& draw : scene.draws) {
     const Material& material = scene.materials[draw.material];
-    DrawItem item{draw.first_index, draw.index_count, material.double_sided,
+    DrawItem item{draw.first_index,
+                  draw.index_count,
+                  material.double_sided,
                   alpha_mask && material.alpha_mode == AlphaMode::mask,
-                  material.base_color_texture < 0 ? textures_.size() - 1 : static_cast<size_t>(material.base_color_texture), {}};
-    gpu_data::MaterialData data{material.base_color, material.metallic, material.roughness, material.alpha_cutoff,
-                                material.double_sided};
+                  material.base_color_texture < 0 ? textures_.size() - 1
+                                                  : static_cast<size_t>(material.base_color_texture),
+                  {}};
+    gpu_data::MaterialData data{material.base_color, material.metallic, material.roughness,
+                                material.alpha_cutoff, material.double_sided};
     item.push.resize(sizeof data);
     std::memcpy(item.push.data(), &data, sizeof data);
     items_.push_back(std::move(item));
   }
-  bool any_masked = std::any_of(items_.begin(), items_.end(), [](const DrawItem& item) { return item.masked; });
+  bool any_masked =
+      std::any_of(items_.begin(), items_.end(), [](const DrawItem& item) { return item.masked; });
   opaque_ = gbuffer_program(device, false);
   if (any_masked) masked_ = gbuffer_program(device, true);
 }
 
-void Level::record_gbuffer(gpu::Commands& commands, const gpu::Buffer& view, const FrameTargets& targets) const {
+void Level::record_gbuffer(gpu::Commands& commands, const gpu::Buffer& view,
+                           const FrameTargets& targets) const {
   std::vector<gpu::DrawCall> draws;
   draws.reserve(items_.size());
   for (const DrawItem& item : items_) {

@@ -12,8 +12,8 @@ namespace ml {
 
 class Level {
  public:
-  // Uploads vertices, indices and textures. `alpha_mask` false: masked materials are drawn whole (effect forced off).
-  // Throws SystemError when the device cannot hold the level.
+  // Uploads vertices, indices and textures. `alpha_mask` false: masked materials are drawn whole (effect
+  // forced off). Throws SystemError when the device cannot hold the level.
   Level(gpu::Device& device, const Scene& scene, bool alpha_mask);
 
   // Draws everything into depth and surface; `view` is the frame's uniform buffer.

@@ -7,7 +7,8 @@
 namespace ml {
 namespace {
 
-// Ids shared by every shading program (shaders/light_eval.glsl, shaders/shade.comp); an algorithm's own begin at 16.
+// Ids shared by every shading program (shaders/light_eval.glsl, shaders/shade.comp); an algorithm's own begin
+// at 16.
 std::vector<gpu::Constant> constants_of(const Effects& effects, const Algorithm& algorithm, bool block_list) {
   std::vector<gpu::Constant> constants{{0, effects.spots}, {1, effects.specular}, {2, block_list}};
   uint32_t id = 16;
@@ -15,7 +16,8 @@ std::vector<gpu::Constant> constants_of(const Effects& effects, const Algorithm&
   return constants;
 }
 
-std::unique_ptr<Algorithm> created(gpu::Device& device, const AlgorithmEntry& entry, const Parameters& parameters) {
+std::unique_ptr<Algorithm> created(gpu::Device& device, const AlgorithmEntry& entry,
+                                   const Parameters& parameters) {
   bool wants_fp64 = false;
   for (const auto& [name, value] : parameters.values())
     if (const auto* word = std::get_if<std::string>(&value)) wants_fp64 |= *word == "fp64";
@@ -28,8 +30,8 @@ std::unique_ptr<Algorithm> created(gpu::Device& device, const AlgorithmEntry& en
 
 }  // namespace
 
-ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entry, const Parameters& parameters,
-                                 const Effects& effects)
+ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entry,
+                                 const Parameters& parameters, const Effects& effects)
     : device_(device),
       entry_(entry),
       algorithm_(created(device, entry, parameters)),
@@ -37,7 +39,8 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
       blocks_(device, entry.info.name + ": sampled blocks"),
       constants_(constants_of(effects, *algorithm_, false)),
       timed_(device, algorithm_->shade_shaders().timed, entry.info.name + ": shade", constants_),
-      counting_(device, algorithm_->shade_shaders().counting, entry.info.name + ": shade, counting", constants_) {
+      counting_(device, algorithm_->shade_shaders().counting, entry.info.name + ": shade, counting",
+                constants_) {
   for (const std::string& name : names_) buffers_.emplace_back(device, entry.info.name + ": " + name);
   // Every buffer exists from the start, so that programs can bind what a frame left empty.
   for (gpu::UploadBuffer& buffer : buffers_) buffer.map(0);
@@ -98,7 +101,8 @@ void ShadedAlgorithm::count(DeviceFrame& frame, const FrameInput& input) {
   commands.submit();
 }
 
-void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input, std::span<const glm::uvec2> blocks) {
+void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input,
+                                   std::span<const glm::uvec2> blocks) {
   frame.counters();
   if (!sampled_)
     sampled_ = std::make_unique<gpu::ComputeProgram>(device_, algorithm_->shade_shaders().counting,
@@ -111,14 +115,16 @@ void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input, 
   for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
   commands.transfer(blocks_);
   algorithm_->cull(commands, input);
-  commands.dispatch(*sampled_, bindings(frame), std::span<const std::byte>{}, static_cast<uint32_t>(blocks.size()));
+  commands.dispatch(*sampled_, bindings(frame), std::span<const std::byte>{},
+                    static_cast<uint32_t>(blocks.size()));
   commands.submit();
 }
 
 uint64_t ShadedAlgorithm::upload_digest() const {
   uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a, 64 bits
   for (const gpu::UploadBuffer& buffer : buffers_)
-    for (std::byte byte : buffer.host().mapped().first(buffer.used())) hash = (hash ^ static_cast<uint8_t>(byte)) * 0x100000001b3u;
+    for (std::byte byte : buffer.host().mapped().first(buffer.used()))
+      hash = (hash ^ static_cast<uint8_t>(byte)) * 0x100000001b3u;
   return hash;
 }
 

@@ -12,7 +12,8 @@ namespace ml {
 class ShadedAlgorithm final : private UploadMemory {
  public:
   // Throws SystemError when the device refuses a program or cannot hold a buffer.
-  ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entry, const Parameters& parameters, const Effects& effects);
+  ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entry, const Parameters& parameters,
+                  const Effects& effects);
 
   // CPU: lists of the frame into mapped memory. Spans of the algorithm's stages.
   void prepare(const FrameInput& input, Spans& spans);
@@ -21,8 +22,8 @@ class ShadedAlgorithm final : private UploadMemory {
   gpu::SubmissionTimes shade(DeviceFrame& frame, const FrameInput& input, gpu::Timing timing);
   // GPU, counting variant: fills the frame's counters too.
   void count(DeviceFrame& frame, const FrameInput& input);
-  // The same for only the 8x8 blocks of the list, for sampled references: result and counters of other blocks keep what they held. At most
-  // 65,535 blocks (workgroups along one axis on the smallest devices).
+  // The same for only the 8x8 blocks of the list, for sampled references: result and counters of other blocks
+  // keep what they held. At most 65,535 blocks (workgroups along one axis on the smallest devices).
   void count_blocks(DeviceFrame& frame, const FrameInput& input, std::span<const glm::uvec2> blocks);
 
   // A hash of every byte that the last prepare() gave to the GPU.
@@ -37,7 +38,8 @@ class ShadedAlgorithm final : private UploadMemory {
   std::span<std::byte> map(uint32_t slot, size_t bytes) override;
   size_t limit() const override;
   gpu::Bindings bindings(const DeviceFrame& frame) const;
-  void record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input, const gpu::ComputeProgram& program);
+  void record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input,
+              const gpu::ComputeProgram& program);
 
   gpu::Device& device_;
   const AlgorithmEntry& entry_;

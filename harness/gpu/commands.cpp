@@ -23,7 +23,8 @@ class DescriptorSets {
       vk::DescriptorSetAllocateInfo info(*pools_[current_], layout);
       VkDescriptorSet set = VK_NULL_HANDLE;
       auto plain = static_cast<VkDescriptorSetAllocateInfo>(info);
-      VkResult result = device.device.getDispatcher()->vkAllocateDescriptorSets(static_cast<VkDevice>(*device.device), &plain, &set);
+      VkResult result = device.device.getDispatcher()->vkAllocateDescriptorSets(
+          static_cast<VkDevice>(*device.device), &plain, &set);
       if (result == VK_SUCCESS) return set;
       if (result != VK_ERROR_OUT_OF_POOL_MEMORY && result != VK_ERROR_FRAGMENTED_POOL)
         throw SystemError("the device has no memory for descriptors");
@@ -38,7 +39,8 @@ class DescriptorSets {
   static vk::raii::DescriptorPool make_pool(Device::Impl& device) {
     constexpr uint32_t sets = 256;
     using Type = vk::DescriptorType;
-    std::array sizes{vk::DescriptorPoolSize(Type::eStorageBuffer, sets * 8), vk::DescriptorPoolSize(Type::eUniformBuffer, sets * 2),
+    std::array sizes{vk::DescriptorPoolSize(Type::eStorageBuffer, sets * 8),
+                     vk::DescriptorPoolSize(Type::eUniformBuffer, sets * 2),
                      vk::DescriptorPoolSize(Type::eStorageImage, sets * 8),
                      vk::DescriptorPoolSize(Type::eCombinedImageSampler, sets * 4)};
     return {device.device, vk::DescriptorPoolCreateInfo({}, sets, sizes)};
@@ -72,23 +74,27 @@ struct Commands::Impl {
   explicit Impl(Device& d)
       : owner(d),
         device(d.impl()),
-        pool(device.device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, device.queue_family)),
+        pool(device.device,
+             vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, device.queue_family)),
         fence(device.device, vk::FenceCreateInfo()) {
     vk::CommandBufferAllocateInfo info(*pool, vk::CommandBufferLevel::ePrimary, 1);
     buffer = std::move(vk::raii::CommandBuffers(device.device, info).front());
     if (device.limits.timestamp_valid_bits)
-      stamps = vk::raii::QueryPool(device.device, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, max_stamps));
+      stamps = vk::raii::QueryPool(device.device,
+                                   vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, max_stamps));
   }
 
   void barrier(vk::PipelineStageFlags2 after = vk::PipelineStageFlagBits2::eAllCommands,
-               vk::AccessFlags2 access = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite) {
+               vk::AccessFlags2 access = vk::AccessFlagBits2::eMemoryRead |
+                                         vk::AccessFlagBits2::eMemoryWrite) {
     vk::MemoryBarrier2 all(vk::PipelineStageFlagBits2::eAllCommands,
-                           vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite, after, access);
+                           vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite, after,
+                           access);
     buffer.pipelineBarrier2(vk::DependencyInfo({}, all));
   }
 
-  // Full barrier, stamp, full barrier: the one order that is right on the software driver after raster passes, and that keeps a span's work
-  // inside it everywhere else.
+  // Full barrier, stamp, full barrier: the one order that is right on the software driver after raster
+  // passes, and that keeps a span's work inside it everywhere else.
   void stamp() {
     assert(stamp_count < max_stamps);
     barrier();
@@ -102,8 +108,9 @@ struct Commands::Impl {
   void to_layout(const Image& image, vk::ImageLayout layout) {
     if (image.impl().layout == layout) return;
     vk::AccessFlags2 all = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
-    vk::ImageMemoryBarrier2 change(vk::PipelineStageFlagBits2::eAllCommands, all, vk::PipelineStageFlagBits2::eAllCommands, all,
-                                   image.impl().layout, layout, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image.impl().image,
+    vk::ImageMemoryBarrier2 change(vk::PipelineStageFlagBits2::eAllCommands, all,
+                                   vk::PipelineStageFlagBits2::eAllCommands, all, image.impl().layout, layout,
+                                   VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image.impl().image,
                                    {image.impl().aspect, 0, 1, 0, 1});
     buffer.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, change));
     image.impl().layout = layout;
@@ -121,10 +128,13 @@ struct Commands::Impl {
     for (const auto& entry : layout.slots) {
       const std::string& name = entry.first;
       const BindingSlot& slot = entry.second;
-      auto found = std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == name; });
-      if (found == bindings.end()) throw std::logic_error(fmt::format("{}: nothing is bound to '{}'", program, name));
+      auto found =
+          std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == name; });
+      if (found == bindings.end())
+        throw std::logic_error(fmt::format("{}: nothing is bound to '{}'", program, name));
       vk::WriteDescriptorSet write(set, slot.binding, 0, 1, slot.type);
-      if (slot.type == vk::DescriptorType::eStorageBuffer || slot.type == vk::DescriptorType::eUniformBuffer) {
+      if (slot.type == vk::DescriptorType::eStorageBuffer ||
+          slot.type == vk::DescriptorType::eUniformBuffer) {
         if (!found->buffer) throw std::logic_error(fmt::format("{}: '{}' is a buffer", program, name));
         write.pBufferInfo = &buffers.emplace_back(*found->buffer->impl().buffer, 0, VK_WHOLE_SIZE);
       } else {
@@ -142,7 +152,8 @@ struct Commands::Impl {
   void push(const Layout& layout, std::span<const std::byte> bytes, const std::string& program) const {
     // A shader that uses none of its push constants declares fewer than are given.
     if (bytes.size() < layout.push_bytes)
-      throw std::logic_error(fmt::format("{}: {} bytes of push constants, {} given", program, layout.push_bytes, bytes.size()));
+      throw std::logic_error(
+          fmt::format("{}: {} bytes of push constants, {} given", program, layout.push_bytes, bytes.size()));
     if (layout.push_bytes)
       device.device.getDispatcher()->vkCmdPushConstants(
           static_cast<VkCommandBuffer>(*buffer), static_cast<VkPipelineLayout>(*layout.pipeline_layout),
@@ -202,9 +213,12 @@ SubmissionTimes Commands::submit() {
     times.whole = between(0, c.stamp_count - 1);
     for (size_t i = 0; i < c.span_names.size(); ++i) {
       double span = between(1 + 2 * i, 2 + 2 * i);
-      auto found = std::find_if(times.spans.begin(), times.spans.end(), [&](const auto& s) { return s.first == c.span_names[i]; });
-      if (found == times.spans.end()) times.spans.emplace_back(c.span_names[i], span);
-      else found->second += span;
+      auto found = std::find_if(times.spans.begin(), times.spans.end(),
+                                [&](const auto& s) { return s.first == c.span_names[i]; });
+      if (found == times.spans.end())
+        times.spans.emplace_back(c.span_names[i], span);
+      else
+        found->second += span;
     }
   } catch (const vk::Error& error) {
     throw SystemError(std::string("the device failed: ") + error.what());
@@ -212,13 +226,14 @@ SubmissionTimes Commands::submit() {
   return times;
 }
 
-void Commands::dispatch(const ComputeProgram& program, const Bindings& bindings, std::span<const std::byte> push, uint32_t groups_x,
-                        uint32_t groups_y, uint32_t groups_z) {
+void Commands::dispatch(const ComputeProgram& program, const Bindings& bindings,
+                        std::span<const std::byte> push, uint32_t groups_x, uint32_t groups_y,
+                        uint32_t groups_z) {
   Impl& c = *impl_;
   const auto& limit = c.device.limits.group_count;
   if (groups_x > limit[0] || groups_y > limit[1] || groups_z > limit[2])
-    throw SystemError(fmt::format("{}: {}x{}x{} workgroups, the device allows {}x{}x{}", program.name(), groups_x, groups_y, groups_z,
-                                  limit[0], limit[1], limit[2]));
+    throw SystemError(fmt::format("{}: {}x{}x{} workgroups, the device allows {}x{}x{}", program.name(),
+                                  groups_x, groups_y, groups_z, limit[0], limit[1], limit[2]));
   if (groups_x == 0 || groups_y == 0 || groups_z == 0) return;
   const Layout& layout = program.impl().layout;
   vk::DescriptorSet set = c.bind(layout, bindings, program.name());
@@ -229,26 +244,33 @@ void Commands::dispatch(const ComputeProgram& program, const Bindings& bindings,
   c.barrier();
 }
 
-void Commands::raster(const RasterTargets& targets, const Buffer& vertices, const Buffer& indices, std::span<const DrawCall> draws) {
+void Commands::raster(const RasterTargets& targets, const Buffer& vertices, const Buffer& indices,
+                      std::span<const DrawCall> draws) {
   Impl& c = *impl_;
   auto attachment = [&](const Image& image) {
     c.to_general(image);
-    return vk::RenderingAttachmentInfo(*image.impl().view, vk::ImageLayout::eGeneral, vk::ResolveModeFlagBits::eNone, {},
-                                       vk::ImageLayout::eUndefined, vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+    return vk::RenderingAttachmentInfo(*image.impl().view, vk::ImageLayout::eGeneral,
+                                       vk::ResolveModeFlagBits::eNone, {}, vk::ImageLayout::eUndefined,
+                                       vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
                                        vk::ClearValue{});
   };
   std::vector<vk::RenderingAttachmentInfo> colors;
   for (const Image* color : targets.colors) colors.push_back(attachment(*color));
   vk::RenderingAttachmentInfo depth = attachment(*targets.depth);
   vk::Extent2D extent(targets.depth->width(), targets.depth->height());
-  // Sets are bound and images brought to their layout before rendering begins: barriers are not allowed inside.
+  // Sets are bound and images brought to their layout before rendering begins: barriers are not allowed
+  // inside.
   std::vector<vk::DescriptorSet> sets;
   for (size_t i = 0; i < draws.size(); ++i) {
-    bool reuse = i > 0 && draws[i].program == draws[i - 1].program && same(draws[i].bindings, draws[i - 1].bindings);
-    sets.push_back(reuse ? sets.back() : c.bind(draws[i].program->impl().layout, draws[i].bindings, draws[i].program->name()));
+    bool reuse =
+        i > 0 && draws[i].program == draws[i - 1].program && same(draws[i].bindings, draws[i - 1].bindings);
+    sets.push_back(
+        reuse ? sets.back()
+              : c.bind(draws[i].program->impl().layout, draws[i].bindings, draws[i].program->name()));
   }
   c.buffer.beginRendering(vk::RenderingInfo({}, vk::Rect2D({}, extent), 1, 0, colors, &depth));
-  c.buffer.setViewport(0, vk::Viewport(0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1));
+  c.buffer.setViewport(
+      0, vk::Viewport(0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1));
   c.buffer.setScissor(0, vk::Rect2D({}, extent));
   c.buffer.bindVertexBuffers(0, *vertices.impl().buffer, vk::DeviceSize{0});
   c.buffer.bindIndexBuffer(*indices.impl().buffer, 0, vk::IndexType::eUint32);
@@ -268,7 +290,8 @@ void Commands::raster(const RasterTargets& targets, const Buffer& vertices, cons
 void Commands::clear(const Image& image) {
   Impl& c = *impl_;
   c.to_layout(image, vk::ImageLayout::eTransferDstOptimal);
-  c.buffer.clearColorImage(*image.impl().image, vk::ImageLayout::eTransferDstOptimal, vk::ClearColorValue{}, {{image.impl().aspect, 0, 1, 0, 1}});
+  c.buffer.clearColorImage(*image.impl().image, vk::ImageLayout::eTransferDstOptimal, vk::ClearColorValue{},
+                           {{image.impl().aspect, 0, 1, 0, 1}});
   c.barrier();
 }
 
@@ -279,7 +302,8 @@ void Commands::fill(const Buffer& buffer, uint32_t word) {
 
 void Commands::transfer(const UploadBuffer& buffer) {
   if (!buffer.has_twin() || buffer.used() == 0) return;
-  impl_->buffer.copyBuffer(*buffer.host().impl().buffer, *buffer.shader().impl().buffer, vk::BufferCopy(0, 0, buffer.used()));
+  impl_->buffer.copyBuffer(*buffer.host().impl().buffer, *buffer.shader().impl().buffer,
+                           vk::BufferCopy(0, 0, buffer.used()));
   impl_->barrier();
 }
 
@@ -288,7 +312,8 @@ void Commands::read_image(const Image& image, const Buffer& into) {
   assert(into.bytes() >= image.bytes());
   c.to_layout(image, vk::ImageLayout::eTransferSrcOptimal);
   vk::BufferImageCopy region(0, 0, 0, {image.impl().aspect, 0, 0, 1}, {}, {image.width(), image.height(), 1});
-  c.buffer.copyImageToBuffer(*image.impl().image, vk::ImageLayout::eTransferSrcOptimal, *into.impl().buffer, region);
+  c.buffer.copyImageToBuffer(*image.impl().image, vk::ImageLayout::eTransferSrcOptimal, *into.impl().buffer,
+                             region);
   c.barrier();
 }
 
@@ -297,7 +322,8 @@ void Commands::write_image(const Buffer& from, const Image& image) {
   assert(from.bytes() >= image.bytes());
   c.to_layout(image, vk::ImageLayout::eTransferDstOptimal);
   vk::BufferImageCopy region(0, 0, 0, {image.impl().aspect, 0, 0, 1}, {}, {image.width(), image.height(), 1});
-  c.buffer.copyBufferToImage(*from.impl().buffer, *image.impl().image, vk::ImageLayout::eTransferDstOptimal, region);
+  c.buffer.copyBufferToImage(*from.impl().buffer, *image.impl().image, vk::ImageLayout::eTransferDstOptimal,
+                             region);
   c.barrier();
 }
 

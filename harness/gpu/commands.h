@@ -1,7 +1,7 @@
 // One command buffer, one submission in flight: record, submit, wait, read the times.
 //
-// A pass is one call: dispatch(program, bindings, push constants, groups). Passes are ordered by full memory barriers, so that an
-// algorithm writes no synchronisation of its own.
+// A pass is one call: dispatch(program, bindings, push constants, groups). Passes are ordered by full memory
+// barriers, so that an algorithm writes no synchronisation of its own.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,8 @@ enum class Timing {
 
 // Times of one submission, in milliseconds.
 struct SubmissionTimes {
-  std::vector<std::pair<std::string, double>> spans;  // in order of recording, sums by name; empty unless Timing::stages
+  std::vector<std::pair<std::string, double>>
+      spans;         // in order of recording, sums by name; empty unless Timing::stages
   double whole = 0;  // first to last stamp; 0 when not timed
   double fence = 0;  // CPU clock from submit to fence
 };
@@ -69,22 +70,24 @@ class Commands {
   // Submits, waits for the fence and reads the stamps. Throws SystemError when the device is lost.
   SubmissionTimes submit();
 
-  // Compute. `bindings` may name more than the program uses; everything it uses must be there (std::logic_error with the name).
-  void dispatch(const ComputeProgram& program, const Bindings& bindings, std::span<const std::byte> push, uint32_t groups_x,
-                uint32_t groups_y = 1, uint32_t groups_z = 1);
+  // Compute. `bindings` may name more than the program uses; everything it uses must be there
+  // (std::logic_error with the name).
+  void dispatch(const ComputeProgram& program, const Bindings& bindings, std::span<const std::byte> push,
+                uint32_t groups_x, uint32_t groups_y = 1, uint32_t groups_z = 1);
   template <typename Push>
-  void dispatch(const ComputeProgram& program, const Bindings& bindings, const Push& push, uint32_t groups_x, uint32_t groups_y = 1,
-                uint32_t groups_z = 1) {
+  void dispatch(const ComputeProgram& program, const Bindings& bindings, const Push& push, uint32_t groups_x,
+                uint32_t groups_y = 1, uint32_t groups_z = 1) {
     static_assert(std::is_trivially_copyable_v<Push>);
     dispatch(program, bindings, std::as_bytes(std::span(&push, 1)), groups_x, groups_y, groups_z);
   }
 
   // Clears the targets and draws.
-  void raster(const RasterTargets& targets, const Buffer& vertices, const Buffer& indices, std::span<const DrawCall> draws);
+  void raster(const RasterTargets& targets, const Buffer& vertices, const Buffer& indices,
+              std::span<const DrawCall> draws);
 
-  void clear(const Image& image);                         // all bits 0
+  void clear(const Image& image);  // all bits 0
   void fill(const Buffer& buffer, uint32_t word);
-  void transfer(const UploadBuffer& buffer);              // to the device-local twin, where there is one
+  void transfer(const UploadBuffer& buffer);                // to the device-local twin, where there is one
   void read_image(const Image& image, const Buffer& into);  // tightly packed rows
   void write_image(const Buffer& from, const Image& image);
   void read_buffer(const Buffer& buffer, size_t bytes, const Buffer& into);

@@ -12,8 +12,11 @@ namespace ml::gpu {
 namespace {
 
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* no_device =
+    "no Vulkan device found (Debian package mesa-vulkan-drivers brings a software device)";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                          VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
   auto* log = static_cast<MessageLog*>(user);
   std::lock_guard lock(log->mutex);
@@ -34,31 +37,42 @@ vk::raii::Instance make_instance(vk::raii::Context& context, bool validation) {
       return std::string_view(layer.layerName.data()) == validation_layer;
     });
     if (!found)
-      throw SystemError("the Vulkan validation layer is not installed (Debian package vulkan-validationlayers)");
+      throw SystemError(
+          "the Vulkan validation layer is not installed (Debian package vulkan-validationlayers)");
     layers.push_back(validation_layer);
     extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     info.pNext = &features;
   }
   info.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions);
-  return {context, info};
+  try {
+    return {context, info};
+  } catch (const vk::IncompatibleDriverError&) {
+    throw SystemError(no_device);  // the loader found no driver at all
+  }
 }
 
 vk::raii::Context load_vulkan() {
   try {
     return {};
   } catch (const std::exception& error) {
-    throw SystemError(std::string("no Vulkan loader on this system (Debian package libvulkan1): ") + error.what());
+    throw SystemError(std::string("no Vulkan loader on this system (Debian package libvulkan1): ") +
+                      error.what());
   }
 }
 
 std::string type_name(vk::PhysicalDeviceType type) {
   switch (type) {
-    case vk::PhysicalDeviceType::eCpu: return "cpu";
-    case vk::PhysicalDeviceType::eIntegratedGpu: return "integrated";
-    case vk::PhysicalDeviceType::eDiscreteGpu: return "discrete";
-    case vk::PhysicalDeviceType::eVirtualGpu: return "virtual";
-    default: return "other";
+    case vk::PhysicalDeviceType::eCpu:
+      return "cpu";
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+      return "integrated";
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+      return "discrete";
+    case vk::PhysicalDeviceType::eVirtualGpu:
+      return "virtual";
+    default:
+      return "other";
   }
 }
 
@@ -94,11 +108,13 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, uint32_t index) {
   DeviceInfo info;
   info.index = index;
   info.name = properties.deviceName.data();
-  for (uint8_t byte : chain.get<vk::PhysicalDeviceIDProperties>().deviceUUID) info.uuid += fmt::format("{:02x}", byte);
+  for (uint8_t byte : chain.get<vk::PhysicalDeviceIDProperties>().deviceUUID)
+    info.uuid += fmt::format("{:02x}", byte);
   info.type = type_name(properties.deviceType);
   info.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
-  info.api_version = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(properties.apiVersion),
-                                 VK_API_VERSION_MINOR(properties.apiVersion), VK_API_VERSION_PATCH(properties.apiVersion));
+  info.api_version =
+      fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(properties.apiVersion),
+                  VK_API_VERSION_MINOR(properties.apiVersion), VK_API_VERSION_PATCH(properties.apiVersion));
   info.missing = missing_features(physical);
   return info;
 }
@@ -110,8 +126,7 @@ std::vector<vk::raii::PhysicalDevice> physical_devices(const vk::raii::Instance&
   } catch (const vk::SystemError&) {
     devices.clear();  // the loader answers an empty list of drivers with an error
   }
-  if (devices.empty())
-    throw SystemError("no Vulkan device found (Debian package mesa-vulkan-drivers brings a software device)");
+  if (devices.empty()) throw SystemError(no_device);
   return devices;
 }
 
@@ -122,7 +137,8 @@ std::string lower(std::string text) {
 
 std::string known_devices(const std::vector<DeviceInfo>& infos) {
   std::string list;
-  for (const DeviceInfo& info : infos) list += fmt::format("{}{}: {}", list.empty() ? "" : ", ", info.index, info.name);
+  for (const DeviceInfo& info : infos)
+    list += fmt::format("{}{}: {}", list.empty() ? "" : ", ", info.index, info.name);
   return list;
 }
 
@@ -149,10 +165,11 @@ size_t choose(const std::vector<DeviceInfo>& infos, std::string selector) {
     if (lower(infos[i].name).find(wanted) != std::string::npos) matches.push_back(i);
   }
   if (matches.empty())
-    throw SystemError(fmt::format("no Vulkan device matches '{}'; there are {}", selector, known_devices(infos)));
+    throw SystemError(
+        fmt::format("no Vulkan device matches '{}'; there are {}", selector, known_devices(infos)));
   if (matches.size() > 1)
-    throw SystemError(fmt::format("'{}' matches {} Vulkan devices; choose by index or UUID among {}", selector, matches.size(),
-                                  known_devices(infos)));
+    throw SystemError(fmt::format("'{}' matches {} Vulkan devices; choose by index or UUID among {}",
+                                  selector, matches.size(), known_devices(infos)));
   if (const DeviceInfo& info = infos[matches[0]]; !info.missing.empty())
     throw SystemError(fmt::format("the device '{}' lacks {}", info.name, info.missing));
   return matches[0];
@@ -163,7 +180,8 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, uint32_t fami
   const vk::PhysicalDeviceLimits& limits = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
   DeviceLimits result;
   result.storage_buffer_range = limits.maxStorageBufferRange;
-  result.image_size = std::min(limits.maxImageDimension2D, std::min(limits.maxFramebufferWidth, limits.maxFramebufferHeight));
+  result.image_size =
+      std::min(limits.maxImageDimension2D, std::min(limits.maxFramebufferWidth, limits.maxFramebufferHeight));
   result.group_count = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
                         limits.maxComputeWorkGroupCount[2]};
   result.subgroup_size = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
@@ -178,12 +196,14 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, uint32_t fami
   return result;
 }
 
-vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, uint32_t family, const DeviceLimits& limits) {
+vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, uint32_t family,
+                             const DeviceLimits& limits) {
   float priority = 1;
   vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
   vk::PhysicalDeviceVulkan13Features v13;
   v13.synchronization2 = v13.dynamicRendering = VK_TRUE;
-  v13.maintenance4 = VK_TRUE;  // the shader compiler writes workgroup sizes in its form; every 1.3 device has it
+  v13.maintenance4 =
+      VK_TRUE;  // the shader compiler writes workgroup sizes in its form; every 1.3 device has it
   vk::PhysicalDeviceVulkan12Features v12;
   v12.scalarBlockLayout = VK_TRUE;
   v12.pNext = &v13;
@@ -199,10 +219,15 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, uint32_t 
 
 std::vector<DeviceInfo> list_devices() {
   vk::raii::Context context = load_vulkan();
-  vk::raii::Instance instance = make_instance(context, false);
-  std::vector<DeviceInfo> infos;
-  for (const auto& physical : physical_devices(instance)) infos.push_back(describe(physical, static_cast<uint32_t>(infos.size())));
-  return infos;
+  try {
+    vk::raii::Instance instance = make_instance(context, false);
+    std::vector<DeviceInfo> infos;
+    for (const auto& physical : physical_devices(instance))
+      infos.push_back(describe(physical, static_cast<uint32_t>(infos.size())));
+    return infos;
+  } catch (const vk::Error& error) {
+    throw SystemError(std::string("cannot list the Vulkan devices: ") + error.what());
+  }
 }
 
 Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>()) {
@@ -214,12 +239,14 @@ Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>()) {
       using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
       using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
       vk::DebugUtilsMessengerCreateInfoEXT info({}, Severity::eWarning | Severity::eError,
-                                                Type::eGeneral | Type::eValidation | Type::ePerformance, on_message, &d.log);
+                                                Type::eGeneral | Type::eValidation | Type::ePerformance,
+                                                on_message, &d.log);
       d.messenger = vk::raii::DebugUtilsMessengerEXT(d.instance, info);
     }
     std::vector<vk::raii::PhysicalDevice> physical = physical_devices(d.instance);
     std::vector<DeviceInfo> infos;
-    for (const auto& candidate : physical) infos.push_back(describe(candidate, static_cast<uint32_t>(infos.size())));
+    for (const auto& candidate : physical)
+      infos.push_back(describe(candidate, static_cast<uint32_t>(infos.size())));
     size_t chosen = choose(infos, options.selector);
     d.physical = std::move(physical[chosen]);
     d.info = infos[chosen];

@@ -1,4 +1,5 @@
-// The Vulkan device: found, chosen, announced. This room is the only one that creates Vulkan objects; no Vulkan header leaves it.
+// The Vulkan device: found, chosen, announced. This room is the only one that creates Vulkan objects; no
+// Vulkan header leaves it.
 #pragma once
 
 #include <array>
@@ -11,31 +12,31 @@ namespace ml::gpu {
 
 // What a user needs to recognise a device, and what the result says of it.
 struct DeviceInfo {
-  uint32_t index = 0;         // in the order in which the loader lists the devices
+  uint32_t index = 0;  // in the order in which the loader lists the devices
   std::string name;
-  std::string uuid;           // 32 hex digits
-  std::string type;           // cpu, integrated, discrete, virtual, other
-  std::string driver;         // driver name and version
-  std::string api_version;    // "1.3.230"
-  std::string missing;        // what manylights needs and the device lacks; empty when it can be used
+  std::string uuid;         // 32 hex digits
+  std::string type;         // cpu, integrated, discrete, virtual, other
+  std::string driver;       // driver name and version
+  std::string api_version;  // "1.3.230"
+  std::string missing;      // what manylights needs and the device lacks; empty when it can be used
   bool is_software() const { return type == "cpu"; }
 };
 
 struct DeviceLimits {
-  uint64_t storage_buffer_range = 0;  // bytes one storage buffer can show to a shader
-  uint32_t image_size = 0;            // px per side
+  uint64_t storage_buffer_range = 0;      // bytes one storage buffer can show to a shader
+  uint32_t image_size = 0;                // px per side
   std::array<uint32_t, 3> group_count{};  // workgroups per dispatch
-  uint32_t subgroup_size = 0;         // lanes
+  uint32_t subgroup_size = 0;             // lanes
   uint32_t push_constant_bytes = 0;
   uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
   double timestamp_period_ns = 0;
   bool fp64 = false;
-  uint64_t device_memory = 0;         // bytes of the largest device-local heap
+  uint64_t device_memory = 0;  // bytes of the largest device-local heap
 };
 
 struct DeviceOptions {
-  // Part of a name (case-insensitive), index or UUID; empty: the environment variable MANYLIGHTS_DEVICE, and without it discrete before
-  // integrated before virtual before software.
+  // Part of a name (case-insensitive), index or UUID; empty: the environment variable MANYLIGHTS_DEVICE, and
+  // without it discrete before integrated before virtual before software.
   std::string selector;
   bool validation = false;  // validation layer with synchronization validation
 };
@@ -46,7 +47,8 @@ std::vector<DeviceInfo> list_devices();
 
 class Device {
  public:
-  // Throws SystemError: no Vulkan, no such device (with the known ones), device lacks something, validation layer not installed.
+  // Throws SystemError: no Vulkan, no such device (with the known ones), device lacks something, validation
+  // layer not installed.
   explicit Device(const DeviceOptions& options);
   ~Device();
   Device(const Device&) = delete;

@@ -17,7 +17,8 @@ class Reflection {
     if (spvc_context_create(&context_) != SPVC_SUCCESS) throw std::logic_error("SPIRV-Cross has no memory");
     spvc_parsed_ir ir = nullptr;
     if (spvc_context_parse_spirv(context_, spirv.data(), spirv.size(), &ir) != SPVC_SUCCESS ||
-        spvc_context_create_compiler(context_, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP, &compiler_) != SPVC_SUCCESS ||
+        spvc_context_create_compiler(context_, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP,
+                                     &compiler_) != SPVC_SUCCESS ||
         spvc_compiler_create_shader_resources(compiler_, &resources_) != SPVC_SUCCESS)
       throw std::logic_error("SPIRV-Cross cannot read " + program);
   }
@@ -31,7 +32,9 @@ class Reflection {
     spvc_resources_get_resource_list_for_type(resources_, type, &first, &count);
     return {first, count};
   }
-  uint32_t binding(spvc_variable_id id) const { return spvc_compiler_get_decoration(compiler_, id, SpvDecorationBinding); }
+  uint32_t binding(spvc_variable_id id) const {
+    return spvc_compiler_get_decoration(compiler_, id, SpvDecorationBinding);
+  }
   // The variable's name; for a block without an instance name, the block's.
   std::string name(const spvc_reflected_resource& resource) const {
     const char* variable = spvc_compiler_get_name(compiler_, resource.id);
@@ -39,7 +42,8 @@ class Reflection {
   }
   uint32_t bytes(const spvc_reflected_resource& resource) const {
     size_t size = 0;
-    spvc_compiler_get_declared_struct_size(compiler_, spvc_compiler_get_type_handle(compiler_, resource.base_type_id), &size);
+    spvc_compiler_get_declared_struct_size(
+        compiler_, spvc_compiler_get_type_handle(compiler_, resource.base_type_id), &size);
     return static_cast<uint32_t>(size);
   }
 
@@ -58,7 +62,8 @@ struct Specialization {
       entries.emplace_back(constant.id, static_cast<uint32_t>(values.size() * 4), 4);
       values.push_back(constant.value);
     }
-    info = vk::SpecializationInfo(static_cast<uint32_t>(entries.size()), entries.data(), values.size() * 4, values.data());
+    info = vk::SpecializationInfo(static_cast<uint32_t>(entries.size()), entries.data(), values.size() * 4,
+                                  values.data());
   }
 };
 
@@ -68,7 +73,8 @@ vk::raii::ShaderModule make_module(const Device::Impl& device, std::span<const u
 
 }  // namespace
 
-void Layout::add_module(std::span<const uint32_t> spirv, vk::ShaderStageFlagBits stage, const std::string& program) {
+void Layout::add_module(std::span<const uint32_t> spirv, vk::ShaderStageFlagBits stage,
+                        const std::string& program) {
   Reflection reflection(spirv, program);
   const std::pair<spvc_resource_type, vk::DescriptorType> kinds[] = {
       {SPVC_RESOURCE_TYPE_STORAGE_BUFFER, vk::DescriptorType::eStorageBuffer},
@@ -108,8 +114,10 @@ ComputeProgram::ComputeProgram(Device& owner, std::span<const uint32_t> spirv, c
   Specialization specialization(constants);
   try {
     vk::raii::ShaderModule module = make_module(device, spirv);
-    vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &specialization.info);
-    impl_->pipeline = vk::raii::Pipeline(device.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *impl_->layout.pipeline_layout));
+    vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main",
+                                            &specialization.info);
+    impl_->pipeline = vk::raii::Pipeline(
+        device.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *impl_->layout.pipeline_layout));
   } catch (const vk::Error& error) {
     throw SystemError(fmt::format("the device refuses the program {}: {}", name, error.what()));
   }
@@ -119,8 +127,9 @@ ComputeProgram::~ComputeProgram() = default;
 ComputeProgram::ComputeProgram(ComputeProgram&&) noexcept = default;
 ComputeProgram& ComputeProgram::operator=(ComputeProgram&&) noexcept = default;
 
-RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex, std::span<const uint32_t> fragment,
-                             const std::string& name, const RasterState& state, const std::vector<Constant>& constants)
+RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex,
+                             std::span<const uint32_t> fragment, const std::string& name,
+                             const RasterState& state, const std::vector<Constant>& constants)
     : name_(name), impl_(std::make_unique<Impl>()) {
   Device::Impl& device = owner.impl();
   using Stage = vk::ShaderStageFlagBits;
@@ -129,19 +138,26 @@ RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex, st
   impl_->layout.create(device);
   Specialization specialization(constants);
   try {
-    vk::raii::ShaderModule vertex_module = make_module(device, vertex), fragment_module = make_module(device, fragment);
-    std::array stages{vk::PipelineShaderStageCreateInfo({}, Stage::eVertex, *vertex_module, "main", &specialization.info),
-                      vk::PipelineShaderStageCreateInfo({}, Stage::eFragment, *fragment_module, "main", &specialization.info)};
+    vk::raii::ShaderModule vertex_module = make_module(device, vertex),
+                           fragment_module = make_module(device, fragment);
+    std::array stages{
+        vk::PipelineShaderStageCreateInfo({}, Stage::eVertex, *vertex_module, "main", &specialization.info),
+        vk::PipelineShaderStageCreateInfo({}, Stage::eFragment, *fragment_module, "main",
+                                          &specialization.info)};
     vk::VertexInputBindingDescription vertex_binding(0, state.vertex_stride, vk::VertexInputRate::eVertex);
     std::vector<vk::VertexInputAttributeDescription> attributes;
     for (uint32_t i = 0; i < state.attributes.size(); ++i)
-      attributes.emplace_back(i, 0, state.attributes[i].components == 2 ? vk::Format::eR32G32Sfloat : vk::Format::eR32G32B32Sfloat,
-                              state.attributes[i].offset);
+      attributes.emplace_back(
+          i, 0,
+          state.attributes[i].components == 2 ? vk::Format::eR32G32Sfloat : vk::Format::eR32G32B32Sfloat,
+          state.attributes[i].offset);
     vk::PipelineVertexInputStateCreateInfo input({}, vertex_binding, attributes);
     vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
     vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
-    // Counter-clockwise in a y-up world is clockwise in Vulkan's y-down pictures; the projection flips y, so the file's order stays.
-    vk::PipelineRasterizationStateCreateInfo raster({}, VK_FALSE, VK_FALSE, vk::PolygonMode::eFill, vk::CullModeFlagBits::eBack,
+    // Counter-clockwise in a y-up world is clockwise in Vulkan's y-down pictures; the projection flips y, so
+    // the file's order stays.
+    vk::PipelineRasterizationStateCreateInfo raster({}, VK_FALSE, VK_FALSE, vk::PolygonMode::eFill,
+                                                    vk::CullModeFlagBits::eBack,
                                                     vk::FrontFace::eCounterClockwise, VK_FALSE, 0, 0, 0, 1);
     vk::PipelineMultisampleStateCreateInfo samples({}, vk::SampleCountFlagBits::e1);
     vk::PipelineDepthStencilStateCreateInfo depth({}, VK_TRUE, VK_TRUE, vk::CompareOp::eGreater);
@@ -155,8 +171,8 @@ RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex, st
     std::vector<vk::Format> colors;
     for (Format format : state.colors) colors.push_back(vulkan_format(format));
     vk::PipelineRenderingCreateInfo rendering(0, colors, vulkan_format(state.depth));
-    vk::GraphicsPipelineCreateInfo info({}, stages, &input, &assembly, nullptr, &viewport, &raster, &samples, &depth, &blend,
-                                        &dynamic_state, *impl_->layout.pipeline_layout);
+    vk::GraphicsPipelineCreateInfo info({}, stages, &input, &assembly, nullptr, &viewport, &raster, &samples,
+                                        &depth, &blend, &dynamic_state, *impl_->layout.pipeline_layout);
     info.pNext = &rendering;
     impl_->pipeline = vk::raii::Pipeline(device.device, nullptr, info);
   } catch (const vk::Error& error) {

@@ -1,4 +1,5 @@
-// Compute and raster programs. Their descriptor layouts come from reflection of the SPIR-V, so a pass names what it binds.
+// Compute and raster programs. Their descriptor layouts come from reflection of the SPIR-V, so a pass names
+// what it binds.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,8 @@ struct Constant {
 class ComputeProgram {
  public:
   // Throws SystemError when the device refuses the module.
-  ComputeProgram(Device& device, std::span<const uint32_t> spirv, const std::string& name, const std::vector<Constant>& constants = {});
+  ComputeProgram(Device& device, std::span<const uint32_t> spirv, const std::string& name,
+                 const std::vector<Constant>& constants = {});
   ~ComputeProgram();
   ComputeProgram(ComputeProgram&&) noexcept;
   ComputeProgram& operator=(ComputeProgram&&) noexcept;
@@ -50,8 +52,9 @@ struct RasterState {
 // Triangles with reversed depth (greater passes, written); cull mode is set per draw.
 class RasterProgram {
  public:
-  RasterProgram(Device& device, std::span<const uint32_t> vertex, std::span<const uint32_t> fragment, const std::string& name,
-                const RasterState& state, const std::vector<Constant>& constants = {});
+  RasterProgram(Device& device, std::span<const uint32_t> vertex, std::span<const uint32_t> fragment,
+                const std::string& name, const RasterState& state,
+                const std::vector<Constant>& constants = {});
   ~RasterProgram();
   RasterProgram(RasterProgram&&) noexcept;
   RasterProgram& operator=(RasterProgram&&) noexcept;

@@ -12,7 +12,8 @@ namespace {
 using Property = vk::MemoryPropertyFlagBits;
 
 // The first memory type allowed by `bits` that has all of one of the wishes, tried in order.
-uint32_t memory_type(const Device::Impl& device, uint32_t bits, std::initializer_list<vk::MemoryPropertyFlags> wishes) {
+uint32_t memory_type(const Device::Impl& device, uint32_t bits,
+                     std::initializer_list<vk::MemoryPropertyFlags> wishes) {
   for (vk::MemoryPropertyFlags wish : wishes)
     for (uint32_t i = 0; i < device.memory.memoryTypeCount; ++i)
       if ((bits >> i & 1) && (device.memory.memoryTypes[i].propertyFlags & wish) == wish) return i;
@@ -22,18 +23,22 @@ uint32_t memory_type(const Device::Impl& device, uint32_t bits, std::initializer
 uint32_t memory_type(const Device::Impl& device, uint32_t bits, MemoryKind kind) {
   vk::MemoryPropertyFlags mapped = Property::eHostVisible | Property::eHostCoherent;
   switch (kind) {
-    case MemoryKind::upload: return memory_type(device, bits, {mapped | Property::eDeviceLocal, mapped});
-    case MemoryKind::readback: return memory_type(device, bits, {mapped | Property::eHostCached, mapped});
-    default: return memory_type(device, bits, {Property::eDeviceLocal, vk::MemoryPropertyFlags{}});
+    case MemoryKind::upload:
+      return memory_type(device, bits, {mapped | Property::eDeviceLocal, mapped});
+    case MemoryKind::readback:
+      return memory_type(device, bits, {mapped | Property::eHostCached, mapped});
+    default:
+      return memory_type(device, bits, {Property::eDeviceLocal, vk::MemoryPropertyFlags{}});
   }
 }
 
-vk::raii::DeviceMemory allocate(const Device::Impl& device, const vk::MemoryRequirements& needs, uint32_t type,
-                                const std::string& name) {
+vk::raii::DeviceMemory allocate(const Device::Impl& device, const vk::MemoryRequirements& needs,
+                                uint32_t type, const std::string& name) {
   try {
     return {device.device, vk::MemoryAllocateInfo(needs.size, type)};
   } catch (const vk::Error& error) {
-    throw SystemError(fmt::format("{}: the device has no {} bytes left ({})", name, needs.size, error.what()));
+    throw SystemError(
+        fmt::format("{}: the device has no {} bytes left ({})", name, needs.size, error.what()));
   }
 }
 
@@ -41,20 +46,28 @@ vk::raii::DeviceMemory allocate(const Device::Impl& device, const vk::MemoryRequ
 
 vk::Format vulkan_format(Format format) {
   switch (format) {
-    case Format::r32_uint: return vk::Format::eR32Uint;
-    case Format::rg32_uint: return vk::Format::eR32G32Uint;
-    case Format::rgba32_float: return vk::Format::eR32G32B32A32Sfloat;
-    case Format::d32_float: return vk::Format::eD32Sfloat;
-    case Format::rgba8_srgb: return vk::Format::eR8G8B8A8Srgb;
+    case Format::r32_uint:
+      return vk::Format::eR32Uint;
+    case Format::rg32_uint:
+      return vk::Format::eR32G32Uint;
+    case Format::rgba32_float:
+      return vk::Format::eR32G32B32A32Sfloat;
+    case Format::d32_float:
+      return vk::Format::eD32Sfloat;
+    case Format::rgba8_srgb:
+      return vk::Format::eR8G8B8A8Srgb;
   }
   throw std::logic_error("unknown format");
 }
 
 size_t bytes_per_pixel(Format format) {
   switch (format) {
-    case Format::rg32_uint: return 8;
-    case Format::rgba32_float: return 16;
-    default: return 4;
+    case Format::rg32_uint:
+      return 8;
+    case Format::rgba32_float:
+      return 16;
+    default:
+      return 4;
   }
 }
 
@@ -62,11 +75,11 @@ Buffer::Buffer(Device& owner, size_t bytes, MemoryKind kind, const std::string& 
     : bytes_(bytes), impl_(std::make_unique<Impl>()) {
   const Device::Impl& device = owner.impl();
   if (kind != MemoryKind::readback && bytes > device.limits.storage_buffer_range)
-    throw SystemError(fmt::format("{} needs {} bytes; one storage buffer of '{}' holds {}", name, bytes, device.info.name,
-                                  device.limits.storage_buffer_range));
+    throw SystemError(fmt::format("{} needs {} bytes; one storage buffer of '{}' holds {}", name, bytes,
+                                  device.info.name, device.limits.storage_buffer_range));
   using Usage = vk::BufferUsageFlagBits;
-  vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eUniformBuffer | Usage::eTransferSrc | Usage::eTransferDst |
-                               Usage::eVertexBuffer | Usage::eIndexBuffer;
+  vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eUniformBuffer | Usage::eTransferSrc |
+                               Usage::eTransferDst | Usage::eVertexBuffer | Usage::eIndexBuffer;
   // Shaders never see readback memory, so their range does not limit it.
   if (kind == MemoryKind::readback) usage = Usage::eTransferDst;
   impl_->buffer = vk::raii::Buffer(device.device, vk::BufferCreateInfo({}, bytes, usage));
@@ -74,7 +87,8 @@ Buffer::Buffer(Device& owner, size_t bytes, MemoryKind kind, const std::string& 
   uint32_t type = memory_type(device, needs.memoryTypeBits, kind);
   impl_->memory = allocate(device, needs, type, name);
   impl_->buffer.bindMemory(*impl_->memory, 0);
-  impl_->device_local = static_cast<bool>(device.memory.memoryTypes[type].propertyFlags & Property::eDeviceLocal);
+  impl_->device_local =
+      static_cast<bool>(device.memory.memoryTypes[type].propertyFlags & Property::eDeviceLocal);
   if (kind != MemoryKind::device)
     impl_->mapped = {static_cast<std::byte*>(impl_->memory.mapMemory(0, VK_WHOLE_SIZE)), bytes};
 }
@@ -95,39 +109,45 @@ std::span<std::byte> UploadBuffer::map(size_t bytes) {
     size_t wanted = std::max<size_t>(bytes, 16);
     // Doubling keeps growth rare; near the limit the exact size may still fit.
     if (host_) wanted = std::max(wanted, std::min(2 * host_->bytes(), limit));
-    host_ = std::make_unique<Buffer>(*device_, (wanted + 63) / 64 * 64 > limit ? wanted : (wanted + 63) / 64 * 64,
-                                     MemoryKind::upload, name_);
+    host_ =
+        std::make_unique<Buffer>(*device_, (wanted + 63) / 64 * 64 > limit ? wanted : (wanted + 63) / 64 * 64,
+                                 MemoryKind::upload, name_);
     twin_.reset();
-    if (!host_->device_local()) twin_ = std::make_unique<Buffer>(*device_, host_->bytes(), MemoryKind::device, name_);
+    if (!host_->device_local())
+      twin_ = std::make_unique<Buffer>(*device_, host_->bytes(), MemoryKind::device, name_);
   }
   used_ = bytes;
   return host_->mapped().first(bytes);
 }
 
-Image::Image(Device& owner, uint32_t width, uint32_t height, Format format, ImageUse use, const std::string& name)
+Image::Image(Device& owner, uint32_t width, uint32_t height, Format format, ImageUse use,
+             const std::string& name)
     : width_(width), height_(height), format_(format), impl_(std::make_unique<Impl>()) {
   const Device::Impl& device = owner.impl();
   if (width == 0 || height == 0 || width > device.limits.image_size || height > device.limits.image_size)
-    throw SystemError(fmt::format("{} of {}x{} px: '{}' has images of 1 to {} px a side", name, width, height, device.info.name,
-                                  device.limits.image_size));
+    throw SystemError(fmt::format("{} of {}x{} px: '{}' has images of 1 to {} px a side", name, width, height,
+                                  device.info.name, device.limits.image_size));
   bool depth = format == Format::d32_float;
   impl_->aspect = depth ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
   using Usage = vk::ImageUsageFlagBits;
   vk::ImageUsageFlags usage = Usage::eTransferSrc | Usage::eTransferDst | Usage::eSampled;
   if (use == ImageUse::storage) usage |= Usage::eStorage;
   if (use == ImageUse::attachment) usage |= depth ? Usage::eDepthStencilAttachment : Usage::eColorAttachment;
-  vk::ImageCreateInfo info({}, vk::ImageType::e2D, vulkan_format(format), vk::Extent3D(width, height, 1), 1, 1,
-                           vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage);
+  vk::ImageCreateInfo info({}, vk::ImageType::e2D, vulkan_format(format), vk::Extent3D(width, height, 1), 1,
+                           1, vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage);
   impl_->image = vk::raii::Image(device.device, info);
   vk::MemoryRequirements needs = impl_->image.getMemoryRequirements();
-  impl_->memory = allocate(device, needs, memory_type(device, needs.memoryTypeBits, MemoryKind::device), name);
+  impl_->memory =
+      allocate(device, needs, memory_type(device, needs.memoryTypeBits, MemoryKind::device), name);
   impl_->image.bindMemory(*impl_->memory, 0);
-  impl_->view = vk::raii::ImageView(device.device, vk::ImageViewCreateInfo({}, *impl_->image, vk::ImageViewType::e2D,
-                                                                           vulkan_format(format), {}, {impl_->aspect, 0, 1, 0, 1}));
+  impl_->view = vk::raii::ImageView(
+      device.device, vk::ImageViewCreateInfo({}, *impl_->image, vk::ImageViewType::e2D, vulkan_format(format),
+                                             {}, {impl_->aspect, 0, 1, 0, 1}));
   bool filter = use == ImageUse::texture;
   vk::SamplerCreateInfo sampler({}, filter ? vk::Filter::eLinear : vk::Filter::eNearest,
-                                filter ? vk::Filter::eLinear : vk::Filter::eNearest, vk::SamplerMipmapMode::eNearest,
-                                vk::SamplerAddressMode::eRepeat, vk::SamplerAddressMode::eRepeat, vk::SamplerAddressMode::eRepeat);
+                                filter ? vk::Filter::eLinear : vk::Filter::eNearest,
+                                vk::SamplerMipmapMode::eNearest, vk::SamplerAddressMode::eRepeat,
+                                vk::SamplerAddressMode::eRepeat, vk::SamplerAddressMode::eRepeat);
   impl_->sampler = vk::raii::Sampler(device.device, sampler);
 }
 

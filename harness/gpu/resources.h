@@ -20,7 +20,8 @@ enum class MemoryKind {
 // A buffer of bytes: storage, uniform, vertex, index and transfer uses are all allowed.
 class Buffer {
  public:
-  // `bytes` > 0. Throws SystemError naming `name`, the bytes and the limit when it is over the device's storage range or memory.
+  // `bytes` > 0. Throws SystemError naming `name`, the bytes and the limit when it is over the device's
+  // storage range or memory.
   Buffer(Device& device, size_t bytes, MemoryKind kind, const std::string& name);
   ~Buffer();
   Buffer(Buffer&&) noexcept;
@@ -38,8 +39,8 @@ class Buffer {
   std::unique_ptr<Impl> impl_;
 };
 
-// A storage buffer that the CPU writes every frame and shaders read: mapped memory, and where that memory is not device-local a twin that
-// is, filled by Commands::transfer. Grows by doubling, never shrinks.
+// A storage buffer that the CPU writes every frame and shaders read: mapped memory, and where that memory is
+// not device-local a twin that is, filled by Commands::transfer. Grows by doubling, never shrinks.
 class UploadBuffer {
  public:
   UploadBuffer(Device& device, std::string name) : device_(&device), name_(std::move(name)) {}
@@ -62,12 +63,17 @@ class UploadBuffer {
 enum class Format { r32_uint, rg32_uint, rgba32_float, d32_float, rgba8_srgb };
 size_t bytes_per_pixel(Format format);
 
-enum class ImageUse { storage, attachment, texture };  // attachment: also read by compute shaders as a sampled image
+enum class ImageUse {
+  storage,
+  attachment,
+  texture
+};  // attachment: also read by compute shaders as a sampled image
 
 class Image {
  public:
   // Throws SystemError when it is larger than the device's images or its memory.
-  Image(Device& device, uint32_t width, uint32_t height, Format format, ImageUse use, const std::string& name);
+  Image(Device& device, uint32_t width, uint32_t height, Format format, ImageUse use,
+        const std::string& name);
   ~Image();
   Image(Image&&) noexcept;
   Image& operator=(Image&&) noexcept;

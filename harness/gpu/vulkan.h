@@ -1,4 +1,5 @@
-// Private to this room: the Vulkan objects behind its classes. Precompiled, because vulkan_raii.hpp costs seconds a file.
+// Private to this room: the Vulkan objects behind its classes. Precompiled, because vulkan_raii.hpp costs
+// seconds a file.
 #pragma once
 
 #include <map>

@@ -38,7 +38,8 @@ struct Result {
   bool complete = false;  // false while running and after an interruption
   nlohmann::json harness =
       nlohmann::json::object();  // where the run's wall time went: spans in ms, overhead fraction
-  std::vector<nlohmann::json> earlier_cases;  // of an earlier run that is resumed, as its file has them; they come first
+  std::vector<nlohmann::json>
+      earlier_cases;  // of an earlier run that is resumed, as its file has them; they come first
   std::vector<CaseResult> cases;
 };
 

@@ -1,7 +1,7 @@
 // Cameras: where the picture is taken from and how view space maps to pixels.
 //
-// View space: x right, y up, z forward (depth is positive in front), metres. Perspective pixels are slopes (x/z, y/z);
-// orthographic pixels are metres (x, y). Row 0 of a picture is at the top.
+// View space: x right, y up, z forward (depth is positive in front), metres. Perspective pixels are slopes
+// (x/z, y/z); orthographic pixels are metres (x, y). Row 0 of a picture is at the top.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,16 @@ namespace ml {
 
 enum class ProjectionKind : uint32_t { perspective = 0, orthographic = 1 };
 
-// The window of the picture in view space. Off-centre, jittered and asymmetric windows are allowed: nothing may assume
-// left == -right.
+// The window of the picture in view space. Off-centre, jittered and asymmetric windows are allowed: nothing
+// may assume left == -right.
 struct Projection {
   ProjectionKind kind = ProjectionKind::perspective;
   float left = -1, right = 1;  // slopes at z = 1 m, or metres; left < right
   float bottom = -1, top = 1;  // bottom < top
   float near = 0.1f;           // m, > 0; surfaces nearer than this are clipped
-  // m, > near. Perspective depth is reversed and infinite (1 at near, 0 at infinity): `far` clips nothing there and only bounds the
-  // depth grids of algorithms (their last slice takes what lies beyond). Orthographic depth is reversed and linear, clipped at far.
+  // m, > near. Perspective depth is reversed and infinite (1 at near, 0 at infinity): `far` clips nothing
+  // there and only bounds the depth grids of algorithms (their last slice takes what lies beyond).
+  // Orthographic depth is reversed and linear, clipped at far.
   float far = 1000;
 
   // `vertical_fov` in radians, (0, pi).
@@ -31,12 +32,14 @@ struct Projection {
 
 // A camera in the scene, rotation as an orthonormal right-handed basis (right x up = -forward).
 struct Camera {
-  // m, relative to Scene::origin. Rounded to float on purpose: vertices and lights are made camera-relative with exactly this value.
+  // m, relative to Scene::origin. Rounded to float on purpose: vertices and lights are made camera-relative
+  // with exactly this value.
   glm::vec3 position{0};
   glm::vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
   Projection projection;
 
-  // Looks from `position` to `target`; straight up and straight down are allowed. Throws nothing; position == target looks along -z.
+  // Looks from `position` to `target`; straight up and straight down are allowed. Throws nothing; position ==
+  // target looks along -z.
   static Camera look_at(const glm::dvec3& position, const glm::dvec3& target, const Projection& projection);
 };
 
@@ -47,19 +50,22 @@ struct CameraKey {
   glm::dvec3 target{0, 0, -1};
 };
 
-// A Catmull-Rom spline (centripetal-free, uniform in its own time) through the keys: position and target alike.
+// A Catmull-Rom spline (centripetal-free, uniform in its own time) through the keys: position and target
+// alike.
 struct CameraPath {
   std::string name;
-  std::vector<CameraKey> keys;  // at least one; one key is a camera that stands still
+  std::vector<CameraKey> keys;      // at least one; one key is a camera that stands still
   float vertical_fov = 1.0471976f;  // radians (60 degrees)
-  // When set, the projection of a file's own camera is used as it is (its aspect ratio stretched to the picture's height).
+  // When set, the projection of a file's own camera is used as it is (its aspect ratio stretched to the
+  // picture's height).
   bool has_projection = false;
   Projection projection;
 
   double duration() const { return keys.empty() ? 0 : keys.back().time - keys.front().time; }
-  // The camera of frame `frame` of `frames` (frame 0 at the first key, frame frames-1 at the last), for a picture of width x height
-  // pixels.
-  Camera sample(uint32_t frame, uint32_t frames, uint32_t width, uint32_t height, float near, float far) const;
+  // The camera of frame `frame` of `frames` (frame 0 at the first key, frame frames-1 at the last), for a
+  // picture of width x height pixels.
+  Camera sample(uint32_t frame, uint32_t frames, uint32_t width, uint32_t height, float near,
+                float far) const;
 };
 
 }  // namespace ml

@@ -10,13 +10,14 @@ namespace ml {
 enum class LightShape : uint32_t { omni = 0, spot = 1 };
 
 struct Light {
-  glm::dvec3 position{0};   // m, relative to Scene::origin
-  float radius = 1;         // m, > 0: no contribution at or beyond this distance
-  glm::vec3 intensity{1};   // W/sr per colour channel, >= 0
+  glm::dvec3 position{0};  // m, relative to Scene::origin
+  float radius = 1;        // m, > 0: no contribution at or beyond this distance
+  glm::vec3 intensity{1};  // W/sr per colour channel, >= 0
   LightShape shape = LightShape::omni;
   glm::vec3 direction{0, -1, 0};  // unit; spots: the axis, away from the light
   float inner_angle = 0;          // radians; spots: half-angle inside which the cone factor is 1
-  float outer_angle = 0.7853982f;  // radians, (inner_angle, pi]; spots: half-angle at and beyond which it is 0
+  float outer_angle =
+      0.7853982f;  // radians, (inner_angle, pi]; spots: half-angle at and beyond which it is 0
 };
 
 }  // namespace ml

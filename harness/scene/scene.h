@@ -1,7 +1,8 @@
 // A level as the bench sees it: triangles, materials, cameras and the lights that the file itself brings.
 //
-// Units: metres, y up, right-handed. Everything is relative to `origin`, so that a level far from its own zero keeps its precision:
-// importers add up transforms in double, choose an origin near the level's middle, subtract it in double, and only then round.
+// Units: metres, y up, right-handed. Everything is relative to `origin`, so that a level far from its own
+// zero keeps its precision: importers add up transforms in double, choose an origin near the level's middle,
+// subtract it in double, and only then round.
 #pragma once
 
 #include <cstdint>
@@ -30,14 +31,17 @@ struct Texture {
   std::vector<uint8_t> rgba;  // width * height * 4
 };
 
-enum class AlphaMode : uint32_t { opaque = 0, mask = 1 };  // glTF BLEND is drawn as mask with cutoff 0.5, and said so in Scene::notes
+enum class AlphaMode : uint32_t {
+  opaque = 0,
+  mask = 1
+};  // glTF BLEND is drawn as mask with cutoff 0.5, and said so in Scene::notes
 
 struct Material {
   std::string name;
-  glm::vec4 base_color{1};    // linear factor, alpha in a
+  glm::vec4 base_color{1};      // linear factor, alpha in a
   int base_color_texture = -1;  // index into Scene::textures, -1 for none
-  float metallic = 0;         // [0, 1]
-  float roughness = 0.8f;     // [0, 1]
+  float metallic = 0;           // [0, 1]
+  float roughness = 0.8f;       // [0, 1]
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
@@ -64,12 +68,13 @@ struct Scene {
   std::vector<Draw> draws;
   std::vector<Material> materials;  // at least one
   std::vector<Texture> textures;
-  std::vector<Light> lights;        // the file's own (KHR_lights_punctual), for placement `gltf`
-  std::vector<CameraPath> paths;    // the first is `default`
-  Bounds bounds;                    // of the vertices
-  float near = 0.1f;                // m
-  float far = 1000;                 // m, the depth range of grids: about the longest view
-  std::vector<std::string> notes;   // one line each: what the importer could not represent, to be shown to the user
+  std::vector<Light> lights;      // the file's own (KHR_lights_punctual), for placement `gltf`
+  std::vector<CameraPath> paths;  // the first is `default`
+  Bounds bounds;                  // of the vertices
+  float near = 0.1f;              // m
+  float far = 1000;               // m, the depth range of grids: about the longest view
+  std::vector<std::string>
+      notes;  // one line each: what the importer could not represent, to be shown to the user
 
   uint32_t triangle_count() const { return static_cast<uint32_t>(indices.size() / 3); }
   // The path of that name. Throws UsageError with the nearest known name.
@@ -85,30 +90,35 @@ std::vector<SceneInfo> procedural_scenes();
 
 // What a configuration's "scene" says: a procedural scene or a glTF/GLB file.
 struct SceneSpec {
-  std::string procedural;            // name, or empty
-  std::filesystem::path gltf;        // file, or empty
-  int gltf_scene = -1;               // which of the file's scenes; -1 is the file's default
-  uint32_t seed = 1;                 // procedural generation and automatic camera paths
-  glm::dvec3 offset{0};              // m, added to the whole level in double: the far-from-origin test; |component| <= 1e9
-  bool two_sided = false;            // every material is drawn from both sides: for levels whose winding is not reliable
+  std::string procedural;      // name, or empty
+  std::filesystem::path gltf;  // file, or empty
+  int gltf_scene = -1;         // which of the file's scenes; -1 is the file's default
+  uint32_t seed = 1;           // procedural generation and automatic camera paths
+  glm::dvec3 offset{
+      0};  // m, added to the whole level in double: the far-from-origin test; |component| <= 1e9
+  bool two_sided =
+      false;  // every material is drawn from both sides: for levels whose winding is not reliable
 };
 
 // Throws UsageError (unknown name, bad file) with one line that names the file and the place in it.
 Scene load_scene(const SceneSpec& spec);
 
 // Reads a .gltf or .glb. A file without a camera gets automatic paths.
-Scene import_gltf(const std::filesystem::path& file, int scene_index, uint32_t seed, const glm::dvec3& offset);
-// The same from memory, for tests and fuzzing; `name` stands in for the file name in errors, and external buffers are refused.
-Scene import_gltf_memory(std::span<const std::byte> bytes, const std::string& name, int scene_index, uint32_t seed,
-                         const glm::dvec3& offset);
+Scene import_gltf(const std::filesystem::path& file, int scene_index, uint32_t seed,
+                  const glm::dvec3& offset);
+// The same from memory, for tests and fuzzing; `name` stands in for the file name in errors, and external
+// buffers are refused.
+Scene import_gltf_memory(std::span<const std::byte> bytes, const std::string& name, int scene_index,
+                         uint32_t seed, const glm::dvec3& offset);
 
-// Writes scene, cameras (the keys of the default path as an animated camera) and lights (KHR_lights_punctual, up to 4096; above that in a
-// binary side file FILE.lights.bin named in the file's extras; its format: gltf_parts.h). Byte-identical on every machine. Throws
-// SystemError, and UsageError for a scene without triangles and for a light that rejection_reason() refuses.
+// Writes scene, cameras (the keys of the default path as an animated camera) and lights (KHR_lights_punctual,
+// up to 4096; above that in a binary side file FILE.lights.bin named in the file's extras; its format:
+// gltf_parts.h). Byte-identical on every machine. Throws SystemError, and UsageError for a scene without
+// triangles and for a light that rejection_reason() refuses.
 void export_glb(const Scene& scene, const std::vector<Light>& lights, const std::filesystem::path& file);
 
-// A path at eye height (1.7 m) above upward-facing floor, looking along long free views; seeded, deterministic. Levels
-// without any floor get a path around their bounds.
+// A path at eye height (1.7 m) above upward-facing floor, looking along long free views; seeded,
+// deterministic. Levels without any floor get a path around their bounds.
 CameraPath automatic_path(const Scene& scene, uint32_t seed);
 
 }  // namespace ml

@@ -4,8 +4,8 @@
 #include "cpp_glsl.h"
 ML_NAMESPACE_BEGIN
 
-#define ML_BLOCK 8u   // px: a block's lights are found from the bounds of its surface points
-#define ML_GROUP 8u   // blocks: a group of 8x8 blocks is tested against all lights first
+#define ML_BLOCK 8u  // px: a block's lights are found from the bounds of its surface points
+#define ML_GROUP 8u  // blocks: a group of 8x8 blocks is tested against all lights first
 
 // Bounds of the surface points of one block, camera-relative; empty (low > high) when all is sky.
 struct BlockBounds {
@@ -14,8 +14,8 @@ struct BlockBounds {
 ML_SIZE(BlockBounds, 24);
 
 struct ContributingPush {
-  uvec2 blocks;       // blocks across and down
-  uint mask_words;    // words of 32 lights in a group's mask
+  uvec2 blocks;     // blocks across and down
+  uint mask_words;  // words of 32 lights in a group's mask
 };
 ML_SIZE(ContributingPush, 12);
 

@@ -1,4 +1,5 @@
-// Makes the headers of this folder compile as C++ and as GLSL (scalar block layout), so that a GPU struct is written once.
+// Makes the headers of this folder compile as C++ and as GLSL (scalar block layout), so that a GPU struct is
+// written once.
 #ifndef ML_CPP_GLSL_H
 #define ML_CPP_GLSL_H
 

@@ -1,5 +1,5 @@
-// Light data on the GPU. The core is all that an omni light needs (32 bytes, two to a cache line of 64); what only some shapes need
-// stands in a second buffer of the same index, read only for those shapes.
+// Light data on the GPU. The core is all that an omni light needs (32 bytes, two to a cache line of 64); what
+// only some shapes need stands in a second buffer of the same index, read only for those shapes.
 #ifndef ML_SHARED_LIGHT_H
 #define ML_SHARED_LIGHT_H
 #include "cpp_glsl.h"
@@ -17,7 +17,7 @@ struct LightExtra {
   vec3 direction;    // unit, away from the light
   float cone_scale;  // cone factor = clamp(cos * scale + offset, 0, 1) squared
   float cone_offset;
-  float cos_outer;   // contributes only where cos > cos_outer
+  float cos_outer;  // contributes only where cos > cos_outer
   vec2 unused;
 };
 ML_SIZE(LightExtra, 32);

@@ -1,6 +1,7 @@
-// The depth slices of a froxel grid: one near slice, then exponential ones from zmin to zmax (Persson 2013, "Practical Clustered
-// Shading"; listing 4 of "Tiled Light Trees" has the scale upside down). ONE function for CPU and GPU, of exactly rounded operations
-// only, so that both give the same slice for the same depth, bit for bit.
+// The depth slices of a froxel grid: one near slice, then exponential ones from zmin to zmax (Persson 2013,
+// "Practical Clustered Shading"; listing 4 of "Tiled Light Trees" has the scale upside down). ONE function
+// for CPU and GPU, of exactly rounded operations only, so that both give the same slice for the same depth,
+// bit for bit.
 #ifndef ML_SHARED_SLICES_H
 #define ML_SHARED_SLICES_H
 #include "cpp_glsl.h"
@@ -19,9 +20,10 @@ ML_SIZE(SliceMapping, 12);
 #define ML_PRECISE precise
 #endif
 
-// log2 of a positive, normal number within 1e-6; grows with it but for steps of its last bit (users widen bounds by 1e-5).
-// Exponent from the bits; the rest, x = m - 1 with the mantissa m in [sqrt 1/2, sqrt 2), by a polynomial for log2(1 + x) / x fitted at
-// Chebyshev nodes. Additions and multiplications only: those are exactly rounded on every device, divisions and log() are not.
+// log2 of a positive, normal number within 1e-6; grows with it but for steps of its last bit (users widen
+// bounds by 1e-5). Exponent from the bits; the rest, x = m - 1 with the mantissa m in [sqrt 1/2, sqrt 2), by
+// a polynomial for log2(1 + x) / x fitted at Chebyshev nodes. Additions and multiplications only: those are
+// exactly rounded on every device, divisions and log() are not.
 ML_FUNCTION float slice_log2(float z) {
 #ifdef __cplusplus
   uint bits;
@@ -53,7 +55,8 @@ ML_FUNCTION float slice_log2(float z) {
   return result;
 }
 
-// Slice of a view depth in metres: [0, count). Depths at or below 0 and NaN are in slice 0; everything past zmax is in the last.
+// Slice of a view depth in metres: [0, count). Depths at or below 0 and NaN are in slice 0; everything past
+// zmax is in the last.
 ML_FUNCTION uint slice_of_depth(float z, SliceMapping mapping) {
   if (!(z > 1e-30f)) return 0u;
   ML_PRECISE float slice = (slice_log2(z) - mapping.log_min) * mapping.scale + 1.0f;

@@ -4,15 +4,16 @@
 #include "cpp_glsl.h"
 ML_NAMESPACE_BEGIN
 
-// View space: x right, y up, z forward, metres. Everything is camera-relative: the camera is the origin of the world axes too.
+// View space: x right, y up, z forward, metres. Everything is camera-relative: the camera is the origin of
+// the world axes too.
 struct ViewData {
   vec3 right;
-  float left_edge;    // picture window: slopes at z = 1 (perspective) or metres (orthographic)
+  float left_edge;  // picture window: slopes at z = 1 (perspective) or metres (orthographic)
   vec3 up;
   float right_edge;
   vec3 forward;
   float bottom_edge;
-  vec3 camera;        // m, relative to the scene's origin
+  vec3 camera;  // m, relative to the scene's origin
   float top_edge;
   uvec2 resolution;   // px
   float near;         // m

@@ -98,10 +98,10 @@ TEST(Usage, UnknownDeviceAndNoVulkan) {
   const std::string config = write_config(folder, small_config()), out = (folder / "out").string();
   expect_error(manylights({"run", config, "--out", out, "--device", "no such device"}), 3,
                {"no Vulkan device matches 'no such device'", "0: "});
-  expect_error(manylights({"run", config, "--out", out}, {.environment = {{"MANYLIGHTS_DEVICE", "77"}}}), 3,
-               {"'77'"});
-  const ProcessOptions none{
-      .environment = {{"VK_ICD_FILENAMES", "/nonexistent"}, {"VK_DRIVER_FILES", "/nonexistent"}}};
+  ProcessOptions chosen, none;
+  chosen.environment = {{"MANYLIGHTS_DEVICE", "77"}};
+  none.environment = {{"VK_ICD_FILENAMES", "/nonexistent"}, {"VK_DRIVER_FILES", "/nonexistent"}};
+  expect_error(manylights({"run", config, "--out", out}, chosen), 3, {"'77'"});
   expect_error(manylights({"run", config, "--out", out}, none), 3, {"no Vulkan device"});
   expect_error(manylights({"verify", config}, none), 3, {"no Vulkan device"});
   expect_error(manylights({"render", config, "--frame", "0", "--out", (folder / "f.exr").string()}, none), 3,
@@ -128,7 +128,8 @@ TEST(Usage, FoldersThatCannotBeWritten) {
 TEST(Usage, DiskThatIsFull) {
   // Files may not grow beyond 1 KiB, which no result fits in.
   Folder folder;
-  const ProcessOptions full{.largest_file = 1024};
+  ProcessOptions full;
+  full.largest_file = 1024;
   const std::string config = write_config(folder, small_config());
   Outcome run = manylights({"run", config, "--out", (folder / "out").string(), "--quiet"}, full);
   EXPECT_EQ(run.code, 3);

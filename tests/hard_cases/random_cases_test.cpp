@@ -82,15 +82,15 @@ void expect_random_cases(uint32_t width, uint32_t height, uint32_t cases, uint32
 }
 
 TEST_F(HardCases, RandomCasesOfAnOrdinaryPicture) {
-  expect_random_cases(64, 36, 120, 1);
+  expect_random_cases(64, 36, 250, 1);
 }
 
 TEST_F(HardCases, RandomCasesOfAnOddPicture) {
-  expect_random_cases(37, 53, 120, 2);
+  expect_random_cases(37, 53, 250, 2);
 }
 
 TEST_F(HardCases, RandomCasesOfATinyPicture) {
-  expect_random_cases(5, 3, 150, 3);
+  expect_random_cases(5, 3, 250, 3);
 }
 
 }  // namespace

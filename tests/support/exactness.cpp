@@ -225,8 +225,8 @@ Light spot(glm::dvec3 position, float radius, glm::vec3 direction, float inner_d
   Light light = omni(position, radius);
   light.shape = LightShape::spot;
   light.direction = glm::normalize(direction);
-  light.inner_angle = inner_degrees * degrees;
   light.outer_angle = std::min(outer_degrees * degrees, 3.1415925f);
+  light.inner_angle = std::min(inner_degrees * degrees, light.outer_angle);
   return light;
 }
 

@@ -43,10 +43,12 @@ Camera random_camera(Random& random) {
 std::vector<Light> random_lights(Random& random, uint32_t count, const Camera& camera) {
   std::vector<Light> lights(count);
   for (Light& light : lights) {
-    // Around the camera at all distances, in front and behind, so that many straddle the near plane or hold the camera.
+    // Around the camera at all distances, in front and behind, so that many straddle the near plane or hold
+    // the camera.
     float distance = log_uniform(random, 0.01f, 500);
     glm::vec3 direction(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    light.position = glm::dvec3(camera.position) + glm::dvec3(glm::normalize(direction + glm::vec3(1e-3f))) * static_cast<double>(distance);
+    light.position = glm::dvec3(camera.position) +
+                     glm::dvec3(glm::normalize(direction + glm::vec3(1e-3f))) * static_cast<double>(distance);
     light.radius = distance * log_uniform(random, 0.01f, 3);
   }
   return lights;
@@ -66,7 +68,9 @@ struct Fixture {
   Threads threads;
   FrameLightStorage storage;
   FrameInput frame;
-  Fixture(const std::vector<Light>& lights, const Camera& camera, uint32_t width, uint32_t height, unsigned count = 1) : threads(count) {
+  Fixture(const std::vector<Light>& lights, const Camera& camera, uint32_t width, uint32_t height,
+          unsigned count = 1)
+      : threads(count) {
     storage.fill(lights, camera.position);
     frame.view = view_data(camera, width, height, static_cast<uint32_t>(lights.size()));
     frame.lights = storage.lights();
@@ -75,7 +79,8 @@ struct Fixture {
 };
 
 std::vector<uint32_t> list_of(const ClusterLists& lists, uint32_t froxel) {
-  auto indices = lists.indices().subspan(lists.offsets()[froxel], lists.offsets()[froxel + 1] - lists.offsets()[froxel]);
+  auto indices =
+      lists.indices().subspan(lists.offsets()[froxel], lists.offsets()[froxel + 1] - lists.offsets()[froxel]);
   return {indices.begin(), indices.end()};
 }
 
@@ -85,7 +90,8 @@ glm::dvec3 point_at(const gpu_data::ViewData& view, uint32_t x, uint32_t y, doub
   double wx = view.left_edge + u * (static_cast<double>(view.right_edge) - view.left_edge);
   double wy = view.top_edge + v * (static_cast<double>(view.bottom_edge) - view.top_edge);
   double scale = view.orthographic ? 1 : depth;
-  return glm::dvec3(view.right) * (wx * scale) + glm::dvec3(view.up) * (wy * scale) + glm::dvec3(view.forward) * depth;
+  return glm::dvec3(view.right) * (wx * scale) + glm::dvec3(view.up) * (wy * scale) +
+         glm::dvec3(view.forward) * depth;
 }
 
 TEST(ClusterLists, EveryLightIsListedWhereverAPixelCanSeeInsideIt) {
@@ -120,7 +126,8 @@ TEST(ClusterLists, VectorCodeGivesTheReferencesBits) {
   for (uint32_t seed = 0; seed < 300; ++seed) {
     Random random(1000 + seed);
     Camera camera = random_camera(random);
-    Fixture fixture(random_lights(random, random.below(700), camera), camera, 1 + random.below(400), 1 + random.below(400));
+    Fixture fixture(random_lights(random, random.below(700), camera), camera, 1 + random.below(400),
+                    1 + random.below(400));
     ClusterSettings settings = random_settings(random);
     settings.refinement = false;
     ClusterLists lists;

@@ -40,8 +40,10 @@ TEST(SliceFunction, PapersGridHasTheNearSliceAndFifteenExponentialOnes) {
 
 TEST(SliceFunction, IsTotalAndClamped) {
   gpu_data::SliceMapping mapping = FroxelGrid::make(view_of(100, 100, 500), 48, 16, 5, 0).mapping;
-  const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
-  for (float z : {0.0f, -0.0f, -1.0f, -infinity, nan, 1e-38f, 1e-45f}) EXPECT_EQ(gpu_data::slice_of_depth(z, mapping), 0u) << z;
+  const float infinity = std::numeric_limits<float>::infinity(),
+              nan = std::numeric_limits<float>::quiet_NaN();
+  for (float z : {0.0f, -0.0f, -1.0f, -infinity, nan, 1e-38f, 1e-45f})
+    EXPECT_EQ(gpu_data::slice_of_depth(z, mapping), 0u) << z;
   for (float z : {501.0f, 1e9f, 3e38f, infinity}) EXPECT_EQ(gpu_data::slice_of_depth(z, mapping), 15u) << z;
 }
 
@@ -49,7 +51,8 @@ TEST(SliceFunction, NeverStepsBackByMoreThanTheWideningOfBounds) {
   for (uint32_t slices : {1u, 2u, 16u, 256u}) {
     gpu_data::SliceMapping mapping = FroxelGrid::make(view_of(100, 100, 1e7f), 48, slices, 0.01f, 0).mapping;
     for (float z = 1e-3f; z < 2e7f; z *= 1.00013f)
-      ASSERT_LE(gpu_data::slice_of_depth(z, mapping), gpu_data::slice_of_depth(z * 1.00001f, mapping)) << z << ", " << slices;
+      ASSERT_LE(gpu_data::slice_of_depth(z, mapping), gpu_data::slice_of_depth(z * 1.00001f, mapping))
+          << z << ", " << slices;
   }
 }
 

@@ -28,14 +28,17 @@ class Files : public testing::Test {
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
-  size_t entries() const { return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator())); }
+  size_t entries() const {
+    return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
   fs::path folder_;
 };
 
 TEST(Error, IsOneLineWhateverItIsMadeOf) {
   UsageError error("a\nb\tc\rd\x01" + std::string(10000, 'x'));
   std::string text = error.what();
-  EXPECT_TRUE(std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }));
+  EXPECT_TRUE(
+      std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }));
   EXPECT_LT(text.size(), 500u);
   EXPECT_EQ(error.code(), ExitCode::usage);
 }
@@ -61,7 +64,8 @@ TEST_F(Files, AreReadAsTheyWereWritten) {
 
 TEST_F(Files, FailingWritesLeaveTheOldFileAndNothingElse) {
   write_file(folder_ / "a", std::string_view("old"));
-  // A file size limit stands in for a full disk: the write fails with an error code once its signal is ignored.
+  // A file size limit stands in for a full disk: the write fails with an error code once its signal is
+  // ignored.
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, SIG_IGN);
@@ -91,7 +95,8 @@ TEST(Random, UnitFloatsStayBelowOne) {
 }
 
 TEST(Random, HashesOfNeighboursLookIndependent) {
-  // Each output bit of the hash of consecutive numbers is set about half of the time, and flips for half of the pairs.
+  // Each output bit of the hash of consecutive numbers is set about half of the time, and flips for half of
+  // the pairs.
   constexpr uint32_t count = 1 << 16;
   for (uint32_t bit = 0; bit < 32; ++bit) {
     uint32_t set = 0, flips = 0;
