@@ -68,17 +68,18 @@ void main() {
     for (uint part = 0u; part < chunk_words / 32u; ++part)
       for (uint words = occupied[part]; words != 0u; words &= words - 1u) {
         uint word = part * 32u + uint(findLSB(words));
-        // Eight lights a turn: Mesa's software driver ends a shader's loops, without a word, after 65,535 turns in all.
         uint mask = narrowed[word], base = (chunk + word) * 32u;
         while (mask != 0u) {
           take(point, lit, base, mask, next, count, hash);
-          take(point, lit, base, mask, next, count, hash);
-          take(point, lit, base, mask, next, count, hash);
-          take(point, lit, base, mask, next, count, hash);
-          take(point, lit, base, mask, next, count, hash);
-          take(point, lit, base, mask, next, count, hash);
-          take(point, lit, base, mask, next, count, hash);
-          take(point, lit, base, mask, next, count, hash);
+          if (LONG_LISTS) {
+            take(point, lit, base, mask, next, count, hash);
+            take(point, lit, base, mask, next, count, hash);
+            take(point, lit, base, mask, next, count, hash);
+            take(point, lit, base, mask, next, count, hash);
+            take(point, lit, base, mask, next, count, hash);
+            take(point, lit, base, mask, next, count, hash);
+            take(point, lit, base, mask, next, count, hash);
+          }
         }
       }
     barrier();

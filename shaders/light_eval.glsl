@@ -11,6 +11,9 @@
 
 layout(constant_id = 0) const bool EFFECT_SPOTS = true;
 layout(constant_id = 1) const bool EFFECT_SPECULAR = true;
+// Loops over lights take several of them a turn: Mesa's software driver ends a shader's loops, without a word, after 65,535 turns in
+// all. Off where there are fewer lights, because it multiplies the time that programs take to compile.
+layout(constant_id = 3) const bool LONG_LISTS = false;
 
 layout(scalar, binding = BIND_LIGHTS) readonly buffer Lights { LightCore lights[]; };
 layout(scalar, binding = BIND_EXTRAS) readonly buffer Extras { LightExtra extras[]; };

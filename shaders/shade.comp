@@ -63,16 +63,17 @@ void main() {
     LightCursor cursor = light_begin(point);
     uint light;
     float weight;
-    // Four lights a turn: Mesa's software driver ends a shader's loops, without a word, after 65,535 turns in all.
     while (true) {
       if (!light_next(cursor, light, weight)) break;
       shade_with(point, light, weight, sum);
-      if (!light_next(cursor, light, weight)) break;
-      shade_with(point, light, weight, sum);
-      if (!light_next(cursor, light, weight)) break;
-      shade_with(point, light, weight, sum);
-      if (!light_next(cursor, light, weight)) break;
-      shade_with(point, light, weight, sum);
+      if (LONG_LISTS) {
+        if (!light_next(cursor, light, weight)) break;
+        shade_with(point, light, weight, sum);
+        if (!light_next(cursor, light, weight)) break;
+        shade_with(point, light, weight, sum);
+        if (!light_next(cursor, light, weight)) break;
+        shade_with(point, light, weight, sum);
+      }
     }
   }
   imageStore(Result, ivec2(pixel), vec4(sum, 1.0));

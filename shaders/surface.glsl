@@ -8,7 +8,9 @@
 #include "shaders/bindings.glsl"
 #include "shaders/shared/view.h"
 
-layout(scalar, binding = BIND_VIEW) uniform View { ViewData view; };
+// A storage buffer and not a uniform one: lavapipe (Mesa 22.3) writes the uniform values that branches depend on
+// into the program and compiles it anew for every dispatch, inside the time that is measured.
+layout(scalar, binding = BIND_VIEW) readonly buffer View { ViewData view; };
 
 #ifndef SURFACE_WRITER
 layout(binding = BIND_DEPTH) uniform sampler2D Depth;

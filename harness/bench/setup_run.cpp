@@ -99,6 +99,9 @@ void SetupRun::counting_lap(const Step& done) {
       spans_.clear();
       algorithms_[i]->prepare(*input_, spans_);
       algorithms_[i]->count(frame_, *input_);
+      // Drivers finish compiling a program at its first dispatch; that must not be in the first sample,
+      // warm-up laps or not.
+      if (index == 0) algorithms_[i]->shade(frame_, *input_, gpu::Timing::none);
       FrameCounters counters =
           summarize(read_counts(frame_), frame_.contributing(), lit, algorithms_[i]->counters());
       for (const auto& [name, value] : counters.named()) results_[i].counters[name].push_back(value);

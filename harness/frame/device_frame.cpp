@@ -21,7 +21,7 @@ uint32_t groups(uint32_t items, uint32_t per_group) {
 }
 
 std::vector<gpu::Constant> effect_constants(const Effects& effects) {
-  return {{0, effects.spots}, {1, effects.specular}};
+  return {{0, effects.spots}, {1, effects.specular}, {3, effects.long_lists}};
 }
 
 template <typename Element>
@@ -37,6 +37,7 @@ std::vector<std::string> Effects::names() const {
   if (spots) list.emplace_back("spot");
   if (specular) list.emplace_back("specular");
   if (alpha_mask) list.emplace_back("alpha_mask");
+  if (long_lists) list.emplace_back("long_lists");
   return list;
 }
 

@@ -31,9 +31,7 @@ void expect_refused(const Folder& folder, const std::string& file, const std::ve
   json config = small_config({{"scene", {{"gltf", (folder / file).string()}}}, {"lights", {{"count", 4}}}});
   std::vector<std::string> all = parts;
   all.push_back(file);
-  expect_error(
-      manylights({"run", write_config(folder, config), "--out", (folder / "out").string()}), 2,
-      all);
+  expect_error(manylights({"run", write_config(folder, config), "--out", (folder / "out").string()}), 2, all);
   EXPECT_FALSE(std::filesystem::exists(folder / "out" / "result.json"));
 }
 

@@ -32,7 +32,7 @@ TEST_F(HardCases, Case40_FramesAfterAFrameWithMoreLights) {
 TEST_F(HardCases, Case40_ResolutionChangesBetweenFrames) {
   // One algorithm, its buffers kept, over frames of different size, as a viewer that is resized.
   const Scene scene = yard();
-  const Effects effects{.spots = true};
+  const Effects effects{.spots = true, .long_lists = false};
   std::vector<Light> lights = scattered(400, {-30, -1, -40}, {30, 12, 14}, 0.2f, 12, 41);
   const AlgorithmEntry& entry = find_algorithm("clustered", "test");
   ShadedAlgorithm algorithm(device(), entry, Parameters(entry.parameters), effects);

@@ -43,7 +43,8 @@ struct Seen {
 class Exactness {
  public:
   // Two spot and specular variants of all programs are compiled at most.
-  Exactness(const Scene& scene, uint32_t width, uint32_t height, const Effects& effects = {.spots = true});
+  Exactness(const Scene& scene, uint32_t width, uint32_t height,
+            const Effects& effects = {.spots = true, .long_lists = false});
   ~Exactness();
 
   // Expects all invariants of the frame, for brute_force, ideal and clustered with each of the settings.
