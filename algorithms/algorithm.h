@@ -79,6 +79,8 @@ class UploadMemory {
 struct PrepareCounters {
   uint64_t in_frustum = 0;  // lights left after culling against the view
   uint64_t list_bytes = 0;  // bytes of the structures that the GPU reads, light data apart unless duplicated
+  uint64_t list_cells = 0,
+           tree_cells = 0;  // cells with lights that hold a list, a tree; 0 where there are no trees
   uint64_t overflow_tiles = 0,
            overflow_lights = 0;  // demand beyond the algorithm's caps; 0 for lossless ones
 };
@@ -106,6 +108,10 @@ class Algorithm {
   virtual ShadeShaders shade_shaders() const = 0;
   // Values of the cursor's specialization constants (ids from 16), in order.
   virtual std::vector<uint32_t> shade_constants() const { return {}; }
+
+  // The pixels of a subgroup walk their cells' lights together, where the device can (shade.comp:
+  // CURSOR_RUNS).
+  virtual bool walks_together() const { return false; }
 
   // GPU list building, each pass in a named span. Default: none.
   virtual void create_gpu(gpu::Device&) {}

@@ -4,7 +4,9 @@
 #include "algorithms/algorithm.h"
 #include "algorithms/brute_force/brute_force.h"
 #include "algorithms/clustered/clustered.h"
+#include "algorithms/hybrid/hybrid.h"
 #include "algorithms/ideal/ideal.h"
+#include "algorithms/light_tree/light_tree.h"
 #include "harness/base/error.h"
 
 namespace ml {
@@ -14,6 +16,8 @@ const std::vector<AlgorithmEntry>& algorithm_registry() {
       brute_force_entry(),
       ideal_entry(),
       clustered_entry(),
+      light_tree_entry(),
+      hybrid_entry(),
   };
   return entries;
 }

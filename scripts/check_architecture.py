@@ -8,6 +8,7 @@ Rules
 - Includes follow the arrows of ARROWS; only registry.cpp, tests and benchmarks name an algorithm's folder from outside.
 - Vulkan is named in harness/gpu alone.
 - A C++ file has at most 450 lines, a shader 250.
+- Folders of algorithms/ that several algorithms are made of (SHARED) have README.md; froxels knows nothing of trees.
 - An algorithm's folder has README.md and light_cursor.glsl, and registry.cpp includes its header.
 - No path of somebody's machine, no note of work left to do.
 
@@ -35,6 +36,7 @@ ARROWS = {
     "cli": ["base", "gpu", "config", "bench"],
 }
 SHADERS = ["shaders"]  # what GLSL may include besides its own folder
+SHARED = {"froxels", "trees"}  # folders in algorithms/ that several algorithms are made of; trees stand on froxels
 OUTSIDE = {"tests", "benchmarks", "examples"}  # may use every room but cli
 
 MOST_LINES = {".cpp": 450, ".h": 450, ".glsl": 250, ".comp": 250, ".vert": 250, ".frag": 250}
@@ -74,6 +76,8 @@ def include_fault(file, room, header):
         return None
     if target.startswith("algorithms/"):
         if file == "algorithms/registry.cpp":
+            return None
+        if target.split("/")[1] in SHARED and room.startswith("algorithms/") and (room, target) != ("algorithms/froxels", "algorithms/trees"):
             return None
         return f"only registry.cpp, tests and benchmarks may name {target}"
     if pathlib.PurePosixPath(file).suffix in GLSL or room == "shaders":
@@ -120,6 +124,10 @@ def check_algorithms(root):
     registered = registry.read_text() if registry.exists() else ""
     for algorithm in sorted(entry for entry in folder.iterdir() if entry.is_dir()):
         name = algorithm.name
+        if name in SHARED:
+            if not (algorithm / "README.md").exists():
+                yield f"algorithms/{name}", 1, "README.md is missing"
+            continue
         for needed in ("README.md", "light_cursor.glsl"):
             if not (algorithm / needed).exists():
                 yield f"algorithms/{name}", 1, f"{needed} is missing"

@@ -39,8 +39,8 @@ bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
   precise REAL dy = REAL(light.position.y) - REAL(point.position.y);
   precise REAL dz = REAL(light.position.z) - REAL(point.position.z);
   precise REAL distance_squared = dx * dx + dy * dy + dz * dz;
-  precise REAL ratio = distance_squared / (REAL(light.radius) * REAL(light.radius));
-  if (!(ratio < REAL(1))) return false;
+  precise REAL radius_squared = REAL(light.radius) * REAL(light.radius);
+  if (!(distance_squared < radius_squared)) return false;
   VEC3 normal = VEC3(point.normal);
   if (distance_squared < REAL(on_point_distance_squared)) {
     result.direction = normal;
@@ -52,6 +52,8 @@ bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
     result.direction = VEC3(dx, dy, dz) * inverse;
     result.cosine = min(projected * inverse, REAL(1));
   }
+  // A division may round to 1 what is less: then the window is 0, and the light contributes nothing.
+  precise REAL ratio = min(distance_squared / radius_squared, REAL(1));
   precise REAL window = REAL(1) - ratio * ratio;
   result.strength = window * window / max(distance_squared, REAL(min_distance_squared));
   if (EFFECT_SPOTS && light.id_shape >> 24 == ML_SHAPE_SPOT) {

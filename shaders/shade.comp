@@ -2,17 +2,27 @@
 //
 // The cursor provides:  struct LightCursor;  LightCursor light_begin(SurfacePoint);
 //                       bool light_next(inout LightCursor, out uint light, out float weight);
-// and may define CURSOR_LIGHT(light) when light data stands elsewhere than in lights[], and CURSOR_CONTRIBUTES when the lights it
-// gives are known to contribute. It reports its work through COUNT_LISTED(n), COUNT_TESTED(n), COUNT_NODES(n), COUNT_TRAVERSAL(class), which
-// are nothing in the timed variant.
+// and may define
+//   CURSOR_LIGHT(light)  when light data stands elsewhere than in lights[];
+//   CURSOR_RUNS          with light_cell(), cell_begin(), light_next_run() and run_light(): the pixels of a subgroup can then walk the lights of
+//                        a cell together (shade_together below);
+//   CURSOR_CASES         with cursor_case(), light_next_in_list() and light_next_shared(): subgroups whose pixels have something in common
+//                        are walked in a loop of their own.
+// It reports its work through COUNT_LISTED(n), COUNT_NODES(n), COUNT_TRAVERSAL(class), which are nothing in the timed variant.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_vote : enable
+#extension GL_KHR_shader_subgroup_arithmetic : enable
+#extension GL_KHR_shader_subgroup_ballot : enable
+#extension GL_KHR_shader_subgroup_shuffle : enable
 #include "shaders/light_eval.glsl"
 
 // Pixels are walked in blocks of 8x8; with a list of blocks only those (the sampled reference), else the whole picture.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 2) const bool BLOCK_LIST = false;
+// The pixels of a subgroup walk lights together: needs votes, shuffles and arithmetic across the subgroup, and a cursor that can.
+layout(constant_id = 7) const bool WALK_TOGETHER = false;
 layout(scalar, binding = BIND_BLOCKS) readonly buffer Blocks { uvec2 blocks[]; };
 layout(rgba32f, binding = BIND_RESULT) writeonly uniform image2D Result;
 
@@ -41,11 +51,13 @@ uint count_listed = 0u, count_tested = 0u, count_contributing = 0u, count_nodes 
 #define CURSOR_LIGHT(light) lights[light]
 #endif
 
-void shade_with(SurfacePoint point, uint light, float weight, inout VEC3 sum) {
-  LightCore data = CURSOR_LIGHT(light);
-  LightSample from;
+// Looks at one light; true when it contributes. `data`: the light without its intensity, which few tests need.
+bool test_light(SurfacePoint point, LightCore data, out LightSample from) {
   COUNT_TESTED(1u);
-  if (!light_sample(point, data, from)) return;
+  return light_sample(point, data, from);
+}
+
+void add_light(SurfacePoint point, LightCore data, LightSample from, float weight, inout VEC3 sum) {
   sum += light_shade(point, data, from) * REAL(weight);
 #ifdef COUNTING
   count_contributing += 1u;
@@ -53,29 +65,73 @@ void shade_with(SurfacePoint point, uint light, float weight, inout VEC3 sum) {
 #endif
 }
 
+#ifdef CURSOR_RUNS
+#include "shaders/shade_together.glsl"
+#endif
+
+#define SHADE_NEXT(next_light)                                    \
+  if (!next_light(cursor, light, weight)) break;                  \
+  data = CURSOR_LIGHT(light);                                     \
+  if (test_light(point, data, from)) add_light(point, data, from, weight, sum);
+// Every pixel first looks for its next light that contributes, then all shade theirs: so the costly part runs about as often as lights
+// contribute and not as often as they are tested, also where a processor runs its lanes in step. With long lists one loop does both.
+#define SHADE_LOOP(next_light)                                    \
+  if (LONG_LISTS) {                                               \
+    while (true) {                                                \
+      SHADE_NEXT(next_light)                                      \
+      SHADE_NEXT(next_light)                                      \
+      SHADE_NEXT(next_light)                                      \
+      SHADE_NEXT(next_light)                                      \
+    }                                                             \
+  } else {                                                        \
+    while (true) {                                                \
+      bool found = false;                                         \
+      while (!found) {                                            \
+        if (!next_light(cursor, light, weight)) break;            \
+        data = CURSOR_LIGHT(light);                               \
+        found = test_light(point, data, from);                    \
+      }                                                           \
+      if (!found) break;                                          \
+      data.intensity = CURSOR_LIGHT(light).intensity;             \
+      add_light(point, data, from, weight, sum);                  \
+    }                                                             \
+  }
+
+void shade_alone(SurfacePoint point, inout VEC3 sum) {
+  LightCursor cursor = light_begin(point);
+  uint light;
+  float weight;
+  LightCore data;
+  LightSample from;
+#ifdef CURSOR_CASES
+  uint walk = cursor_case(cursor);
+  if (walk == 0u) {
+    SHADE_LOOP(light_next_in_list)
+  } else if (walk == 1u) {
+    SHADE_LOOP(light_next_shared)
+  } else {
+    SHADE_LOOP(light_next)
+  }
+#else
+  SHADE_LOOP(light_next)
+#endif
+}
+
 void main() {
   uvec2 block = BLOCK_LIST ? blocks[gl_WorkGroupID.x] : gl_WorkGroupID.xy;
   uvec2 pixel = block * 8u + gl_LocalInvocationID.xy;
-  if (any(greaterThanEqual(pixel, view.resolution))) return;
+  const bool inside = all(lessThan(pixel, view.resolution));
   VEC3 sum = VEC3(0);
   SurfacePoint point;
-  if (surface_load(pixel, point)) {
-    LightCursor cursor = light_begin(point);
-    uint light;
-    float weight;
-    while (true) {
-      if (!light_next(cursor, light, weight)) break;
-      shade_with(point, light, weight, sum);
-      if (LONG_LISTS) {
-        if (!light_next(cursor, light, weight)) break;
-        shade_with(point, light, weight, sum);
-        if (!light_next(cursor, light, weight)) break;
-        shade_with(point, light, weight, sum);
-        if (!light_next(cursor, light, weight)) break;
-        shade_with(point, light, weight, sum);
-      }
-    }
-  }
+#ifdef CURSOR_RUNS
+  if (WALK_TOGETHER) {
+    const bool lit = inside && surface_load(pixel, point);
+    shade_together(point, lit, sum);
+  } else
+#endif
+      if (inside && surface_load(pixel, point))
+    shade_alone(point, sum);
+  if (!inside) return;
   imageStore(Result, ivec2(pixel), vec4(sum, 1.0));
 #ifdef COUNTING
   imageStore(Listed, ivec2(pixel), uvec4(count_listed));

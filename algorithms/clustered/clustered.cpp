@@ -2,7 +2,8 @@
 
 #include <cstring>
 
-#include "algorithms/clustered/cluster_lists.h"
+#include "algorithms/froxels/froxel_lists.h"
+#include "algorithms/froxels/froxel_parameters.h"
 #include "spirv/clustered_shade.h"
 #include "spirv/clustered_shade_counting.h"
 
@@ -24,13 +25,10 @@ void copy(std::span<const Element> from, std::span<std::byte> to) {
 
 class Clustered final : public Algorithm {
  public:
-  explicit Clustered(const Parameters& p) : duplicated_(p.choice("light_data") == "duplicated") {
-    settings_.tile = static_cast<uint32_t>(p.integer("tile"));
-    settings_.slices = static_cast<uint32_t>(p.integer("slices"));
-    settings_.zmin = static_cast<float>(p.real("zmin"));
-    settings_.zmax = static_cast<float>(p.real("zmax"));
-    settings_.refinement = p.boolean("refinement");
-  }
+  explicit Clustered(const Parameters& p)
+      : duplicated_(p.choice("light_data") == "duplicated"),
+        settings_(froxel_settings(p)),
+        together_(walk_together(p)) {}
 
   void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override {
     size_t entry_bytes = duplicated_ ? sizeof(gpu_data::LightCore) : sizeof(uint32_t);
@@ -39,7 +37,7 @@ class Clustered final : public Algorithm {
     const GridHeader header{lists_.grid().mapping, settings_.tile, lists_.grid().columns, settings_.slices};
     copy(std::span(&header, 1), memory.map(grid_slot, sizeof header));
     copy(lists_.offsets(), memory.map(offsets_slot, lists_.offsets().size_bytes()));
-    std::span<const uint32_t> indices = lists_.indices();
+    std::span<const uint32_t> indices = lists_.entries();
     if (duplicated_) {
       auto* lights = reinterpret_cast<gpu_data::LightCore*>(
           memory.map(duplicates_slot, indices.size() * entry_bytes).data());
@@ -55,13 +53,15 @@ class Clustered final : public Algorithm {
 
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {"Grid", "Offsets", "Indices", "Duplicates"}; }
+  bool walks_together() const override { return together_; }
   ShadeShaders shade_shaders() const override { return {clustered_shade, clustered_shade_counting}; }
   std::vector<uint32_t> shade_constants() const override { return {duplicated_}; }
 
  private:
   bool duplicated_;
-  ClusterSettings settings_;
-  ClusterLists lists_;
+  FroxelSettings settings_;
+  bool together_;
+  FroxelLists lists_{"clustered"};
   PrepareCounters counters_;
 };
 
@@ -75,26 +75,12 @@ AlgorithmEntry clustered_entry() {
   entry.info.cpu_stages = {"cull", "bin", "upload"};
   entry.info.gpu_stages = {"shade"};
   entry.info.shapes = {"omni", "spot"};
-  entry.parameters = {
-      ParameterInfo::integer("tile", 24, 4, 1024, "side of a screen tile in pixels"),
-      ParameterInfo::integer("slices", 16, 1, 256, "depth slices: one near slice and the rest exponential"),
-      ParameterInfo::real("zmin", 5, 0.01, 1e6, "depth in metres at which the near slice ends"),
-      ParameterInfo::real("zmax", 0, 0, 1e9,
-                          "depth in metres at which the last slice ends; 0: the scene's far depth"),
-      ParameterInfo::boolean("refinement", false, "narrow each row and slice of froxels to the light's ball"),
-      ParameterInfo::choice(
-          "light_data", "indexed", {"indexed", "duplicated"},
-          "lists hold light indices, or copies of the light data (Tiled Light Trees, fig. 5)"),
-  };
-  entry.check = [](const Parameters& p, uint32_t width, uint32_t height) -> std::string {
-    if (p.real("zmax") > 0 && p.real("zmax") <= p.real("zmin")) return "zmax must be greater than zmin";
-    auto tiles = [&](uint32_t pixels) { return (pixels + p.integer("tile") - 1) / p.integer("tile"); };
-    // Offsets of one buffer of the smallest range that Vulkan 1.3 devices have (2^27 bytes).
-    int64_t froxels = tiles(width) * tiles(height) * p.integer("slices");
-    if (froxels >= int64_t{1} << 25)
-      return "tile and slices give " + std::to_string(froxels) + " froxels; at most 33554431 are possible";
-    return "";
-  };
+  entry.parameters = froxel_parameters();
+  entry.parameters.push_back(ParameterInfo::choice(
+      "light_data", "indexed", {"indexed", "duplicated"},
+      "lists hold light indices, or copies of the light data (Tiled Light Trees, fig. 5)"));
+  entry.parameters.push_back(walk_parameter());
+  entry.check = froxel_check;
   entry.create = [](const Parameters& parameters) { return std::make_unique<Clustered>(parameters); };
   return entry;
 }

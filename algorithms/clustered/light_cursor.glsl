@@ -14,13 +14,18 @@ struct LightCursor {
   uint next, end;
 };
 
-LightCursor light_begin(SurfacePoint point) {
+uint light_cell(SurfacePoint point) {
   uvec2 tile = point.pixel / tile_size;
-  uint froxel = (tile.y * tile_columns + tile.x) * slice_count + slice_of_depth(point.depth, slice_mapping);
+  return (tile.y * tile_columns + tile.x) * slice_count + slice_of_depth(point.depth, slice_mapping);
+}
+
+LightCursor cell_begin(uint froxel, float depth, bool counted) {
   LightCursor cursor = LightCursor(froxel_offsets[froxel], froxel_offsets[froxel + 1u]);
-  COUNT_LISTED(cursor.end - cursor.next);
+  if (counted) COUNT_LISTED(cursor.end - cursor.next);
   return cursor;
 }
+
+LightCursor light_begin(SurfacePoint point) { return cell_begin(light_cell(point), point.depth, true); }
 
 // `light` is an index into lights[], or with duplicated data the place in the list itself.
 bool light_next(inout LightCursor cursor, out uint light, out float weight) {
@@ -30,6 +35,18 @@ bool light_next(inout LightCursor cursor, out uint light, out float weight) {
   cursor.next++;
   return true;
 }
+
+// The whole list is one run.
+bool light_next_run(inout LightCursor cursor, bool here, out uint first, out uint count, out bool wanted) {
+  first = cursor.next;
+  count = cursor.end - cursor.next;
+  wanted = here;
+  cursor.next = cursor.end;
+  return count != 0u;
+}
+
+uint run_light(uint place) { return DUPLICATED ? place : froxel_indices[place]; }
+#define CURSOR_RUNS
 
 LightCore cursor_light(uint light) {
   if (DUPLICATED) return froxel_lights[light];

@@ -21,6 +21,19 @@ Picture tile_maximum(const Picture& pixels, uint32_t tile) {
   return tiles;
 }
 
+// Which classes a tile's pixels have: the one that all have, or `mixed`; tiles without a surface are -1.
+Picture tile_class(const Picture& pixels, uint32_t tile, float mixed) {
+  Picture tiles((pixels.width + tile - 1) / tile, (pixels.height + tile - 1) / tile, {"Y"});
+  std::fill(tiles.data.begin(), tiles.data.end(), -1.0f);
+  for (uint32_t y = 0; y < pixels.height; ++y)
+    for (uint32_t x = 0; x < pixels.width; ++x) {
+      const float value = pixels.data[pixels.pixel(x, y)];
+      float& kept = tiles.data[tiles.pixel(x / tile, y / tile)];
+      if (value >= 0) kept = kept < 0 || kept == value ? value : mixed;
+    }
+  return tiles;
+}
+
 bool any(const std::vector<uint32_t>& values) {
   return std::any_of(values.begin(), values.end(), [](uint32_t value) { return value != 0; });
 }
@@ -86,8 +99,10 @@ std::vector<std::string> write_heat_maps(const PixelCounts& counts, const std::v
     write_pair(pixels, folder, fmt::format("{}.{}", stem, quantity.name), style, files);
     style.title = fmt::format("{}, largest of each {} px tile", quantity.title, tile);
     style.block = tile;
-    write_pair(tile_maximum(pixels, tile), folder, fmt::format("{}.{}.tiles", stem, quantity.name), style,
-               files);
+    write_pair(quantity.classes.empty()
+                   ? tile_maximum(pixels, tile)
+                   : tile_class(pixels, tile, static_cast<float>(quantity.classes.size() - 1)),
+               folder, fmt::format("{}.{}.tiles", stem, quantity.name), style, files);
   }
   return files;
 }

@@ -27,6 +27,10 @@ FrameCounters summarize(const PixelCounts& counts, const ContributingLights& tru
     tested += counts.tested[i];
     contributing += counts.contributing[i];
     nodes += counts.nodes[i];
+    if (prepare.list_cells + prepare.tree_cells > 0) {
+      frame.tree_pixels += lit[i] && counts.traversal[i] == 1;
+      frame.list_pixels += lit[i] && counts.traversal[i] == 0;
+    }
     if (truth.count[i] > counts.contributing[i]) frame.lost += truth.count[i] - counts.contributing[i];
     if (truth.count[i] != counts.contributing[i] || truth.hash[i] != counts.hash[i]) {
       ++frame.mismatched_pixels;
@@ -54,6 +58,10 @@ std::map<std::string, double> FrameCounters::named() const {
           {"mismatched_pixels", exact(mismatched_pixels)},
           {"lit_pixels", exact(lit_pixels)},
           {"list_bytes", exact(prepare.list_bytes)},
+          {"list_cells", exact(prepare.list_cells)},
+          {"tree_cells", exact(prepare.tree_cells)},
+          {"list_pixels", exact(list_pixels)},
+          {"tree_pixels", exact(tree_pixels)},
           {"overflow_tiles", exact(prepare.overflow_tiles)},
           {"overflow_lights", exact(prepare.overflow_lights)}};
 }

@@ -23,6 +23,8 @@ struct FrameCounters {
   uint64_t lost = 0;        // contributing lights that were not evaluated, over all pixels
   uint64_t mismatched_pixels =
       0;  // pixels whose set of contributing lights differs in any way (lost, twice, wrong)
+  uint64_t list_pixels = 0,
+           tree_pixels = 0;  // lit pixels that walked a list, a tree; 0 where there are no trees
   double listed = 0, tested = 0, contributing = 0, nodes = 0;  // means over lit pixels
   PrepareCounters prepare;
   // Names as in the result's `counters`.

@@ -47,7 +47,7 @@ const std::vector<Row>& effects() {
       {"specular", "GGX highlights (effects.specular: auto | off)"},
       {"alpha_mask",
        "cut-out materials; when a material of the scene has a mask (effects.alpha_mask: auto | off)"},
-      {"long_lists", "loops that take four lights a turn; with more than 50,000 lights"},
+      {"long_lists", "loops that take four lights a turn; with more than 28,000 lights"},
   };
   return rows;
 }

@@ -21,7 +21,7 @@ struct Effects {
   // Shading loops fit for lists of more than `most_turns` lights (shaders/light_eval.glsl says why); costs
   // compile time.
   bool long_lists = true;
-  static constexpr uint32_t most_turns = 50000;
+  static constexpr uint32_t most_turns = 28000;
   std::vector<std::string> names() const;  // those that are on, "omni" first
 };
 

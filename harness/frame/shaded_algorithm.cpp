@@ -9,9 +9,13 @@ namespace {
 
 // Ids shared by every shading program (shaders/light_eval.glsl, shaders/shade.comp); an algorithm's own begin
 // at 16.
-std::vector<gpu::Constant> constants_of(const Effects& effects, const Algorithm& algorithm, bool block_list) {
-  std::vector<gpu::Constant> constants{
-      {0, effects.spots}, {1, effects.specular}, {2, block_list}, {3, effects.long_lists}};
+std::vector<gpu::Constant> constants_of(const gpu::Device& device, const Effects& effects,
+                                        const Algorithm& algorithm, bool block_list) {
+  std::vector<gpu::Constant> constants{{0, effects.spots},
+                                       {1, effects.specular},
+                                       {2, block_list},
+                                       {3, effects.long_lists},
+                                       {7, algorithm.walks_together() && device.limits().subgroup_exchange}};
   uint32_t id = 16;
   for (uint32_t value : algorithm.shade_constants()) constants.push_back({id++, value});
   return constants;
@@ -38,7 +42,7 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
       algorithm_(created(device, entry, parameters)),
       names_(algorithm_->buffers()),
       blocks_(device, entry.info.name + ": sampled blocks"),
-      constants_(constants_of(effects, *algorithm_, false)),
+      constants_(constants_of(device, effects, *algorithm_, false)),
       timed_(device, algorithm_->shade_shaders().timed, entry.info.name + ": shade", constants_),
       counting_(device, algorithm_->shade_shaders().counting, entry.info.name + ": shade, counting",
                 constants_) {
@@ -106,9 +110,9 @@ void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input,
                                    std::span<const glm::uvec2> blocks) {
   frame.counters();
   if (!sampled_)
-    sampled_ = std::make_unique<gpu::ComputeProgram>(device_, algorithm_->shade_shaders().counting,
-                                                     entry_.info.name + ": shade, sampled",
-                                                     constants_of(frame.effects(), *algorithm_, true));
+    sampled_ = std::make_unique<gpu::ComputeProgram>(
+        device_, algorithm_->shade_shaders().counting, entry_.info.name + ": shade, sampled",
+        constants_of(device_, frame.effects(), *algorithm_, true));
   std::span<std::byte> memory = blocks_.map(blocks.size_bytes());
   if (!blocks.empty()) std::memcpy(memory.data(), blocks.data(), blocks.size_bytes());
   gpu::Commands& commands = frame.commands();

@@ -184,7 +184,13 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, uint32_t fami
       std::min(limits.maxImageDimension2D, std::min(limits.maxFramebufferWidth, limits.maxFramebufferHeight));
   result.group_count = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
                         limits.maxComputeWorkGroupCount[2]};
-  result.subgroup_size = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
+  const auto& subgroups = chain.get<vk::PhysicalDeviceSubgroupProperties>();
+  const vk::SubgroupFeatureFlags exchange =
+      vk::SubgroupFeatureFlagBits::eVote | vk::SubgroupFeatureFlagBits::eBallot |
+      vk::SubgroupFeatureFlagBits::eShuffle | vk::SubgroupFeatureFlagBits::eArithmetic;
+  result.subgroup_size = subgroups.subgroupSize;
+  result.subgroup_exchange = (subgroups.supportedStages & vk::ShaderStageFlagBits::eCompute) &&
+                             (subgroups.supportedOperations & exchange) == exchange;
   result.push_constant_bytes = limits.maxPushConstantsSize;
   result.timestamp_valid_bits = physical.getQueueFamilyProperties()[family].timestampValidBits;
   result.timestamp_period_ns = static_cast<double>(limits.timestampPeriod);

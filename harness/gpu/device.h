@@ -27,6 +27,8 @@ struct DeviceLimits {
   uint32_t image_size = 0;                // px per side
   std::array<uint32_t, 3> group_count{};  // workgroups per dispatch
   uint32_t subgroup_size = 0;             // lanes
+  bool subgroup_exchange =
+      false;  // votes, ballots, shuffles and arithmetic across a subgroup in compute shaders
   uint32_t push_constant_bytes = 0;
   uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
   double timestamp_period_ns = 0;

@@ -25,6 +25,7 @@ class Exactness::Replaceable final : public Algorithm {
   std::vector<std::string> buffers() const override { return (*inner_)->buffers(); }
   ShadeShaders shade_shaders() const override { return (*inner_)->shade_shaders(); }
   std::vector<uint32_t> shade_constants() const override { return (*inner_)->shade_constants(); }
+  bool walks_together() const override { return (*inner_)->walks_together(); }
   void create_gpu(gpu::Device& owner) override { (*inner_)->create_gpu(owner); }
   void cull(gpu::Commands& commands, const FrameInput& frame) override { (*inner_)->cull(commands, frame); }
 

@@ -1,5 +1,5 @@
 // The slice function and the froxel grid.
-#include "algorithms/clustered/froxel_grid.h"
+#include "algorithms/froxels/froxel_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,8 @@ TEST(SliceFunction, NeverStepsBackByMoreThanTheWideningOfBounds) {
 
 TEST(SliceFunction, RangesHoldTheirDepths) {
   FroxelGrid grid = FroxelGrid::make(view_of(100, 100, 700), 48, 24, 3, 0);
-  auto ranges = grid.slice_ranges();
+  std::vector<FroxelGrid::DepthRange> ranges;
+  grid.slice_ranges(ranges);
   for (float z = 0.01f; z < 2000; z *= 1.0003f) {
     auto range = ranges[gpu_data::slice_of_depth(z, grid.mapping)];
     ASSERT_LE(range.low, z);

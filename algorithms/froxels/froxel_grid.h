@@ -15,6 +15,7 @@ struct FroxelGrid {
   uint32_t tile = 0;               // px
   uint32_t columns = 0, rows = 0;  // the last ones may be partial
   uint32_t slices = 0;
+  float near = 0, far = 0;  // m, the view's near plane and where the last slice ends
   gpu_data::SliceMapping mapping{};
 
   uint32_t cells() const { return columns * rows * slices; }
@@ -29,7 +30,7 @@ struct FroxelGrid {
   struct DepthRange {
     float low, high;
   };
-  std::vector<DepthRange> slice_ranges() const;
+  void slice_ranges(std::vector<DepthRange>& ranges) const;
 };
 
 // A box of froxels: columns x0..x1, rows y0..y1, slices z0..z1, all inclusive. Empty when x0 > x1.

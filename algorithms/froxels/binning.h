@@ -1,5 +1,5 @@
-// CPU stages of clustered binning. Culling and bounding have two forms that give the same bits: plain scalar
-// code, the readable reference, and vector code (Highway), the one that runs.
+// CPU stages of binning lights into froxels. Culling and bounding have two forms that give the same bits:
+// plain scalar code, the readable reference, and vector code (Highway), the one that runs.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "algorithms/algorithm.h"
-#include "algorithms/clustered/froxel_grid.h"
+#include "algorithms/froxels/froxel_grid.h"
 
 namespace ml {
 
@@ -23,9 +23,30 @@ struct VisibleLights {
   void reserve(size_t lights);
 };
 
+// A run of visible lights. Vector code reads up to 64 elements behind the last one.
+struct VisibleRun {
+  const float *x, *y, *z, *radius;
+  const uint32_t* index;
+  size_t count;
+  VisibleRun(const VisibleLights& lights) : VisibleRun(lights, 0, lights.count) {}
+  VisibleRun(const VisibleLights& lights, size_t begin, size_t end)
+      : x(lights.x.data() + begin),
+        y(lights.y.data() + begin),
+        z(lights.z.data() + begin),
+        radius(lights.radius.data() + begin),
+        index(lights.index.data() + begin),
+        count(end - begin) {}
+};
+
 // The froxel box of each visible light: number of its first froxel and extents, 0 extents for an empty box.
 struct LightBoxes {
   std::vector<uint32_t> first, columns, rows, slices;
+  void reserve(size_t lights);
+};
+
+// View depths (m) between which each visible light reaches surface points, widened by what rounding may take.
+struct DepthRanges {
+  std::vector<float> low, high;
   void reserve(size_t lights);
 };
 
@@ -56,15 +77,24 @@ namespace scalar {
 FroxelBox bound_ball(const BoundsConstants& constants, float x, float y, float z, float radius);
 void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
           VisibleLights& visible);
-void bound(const VisibleLights& visible, const BoundsConstants& constants, LightBoxes& boxes);
+void bound(const VisibleRun& visible, const BoundsConstants& constants, LightBoxes& boxes);
+// The depth range of a ball, as written by depth_ranges().
+struct DepthInterval {
+  float low, high;
+};
+DepthInterval depth_interval(float z, float radius);
 }  // namespace scalar
 
 namespace simd {
 void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
           VisibleLights& visible);
-void bound(const VisibleLights& visible, const BoundsConstants& constants, LightBoxes& boxes);
-void emit(const VisibleLights& visible, const LightBoxes& boxes, const FroxelGrid& grid,
+void bound(const VisibleRun& visible, const BoundsConstants& constants, LightBoxes& boxes);
+// low[i], high[i]: depth range of light i of the run; writes whole vectors.
+void depth_ranges(const VisibleRun& visible, float* low, float* high);
+void emit(const VisibleRun& visible, const LightBoxes& boxes, const FroxelGrid& grid,
           const BoxOffsets& offsets, FroxelPairs& pairs);
+// to[i] = table[places[i]].
+void gather(std::span<const uint32_t> table, std::span<const uint32_t> places, uint32_t* to);
 // The instruction set that is used on this machine, as Highway names it.
 const char* target_name();
 }  // namespace simd

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algorithms/clustered/binning.h"
+#include "algorithms/froxels/binning.h"
 
 namespace ml {
 namespace {
@@ -45,6 +45,11 @@ void LightBoxes::reserve(size_t lights) {
     if (column->size() < lights + padding) column->resize(lights + padding);
 }
 
+void DepthRanges::reserve(size_t lights) {
+  for (std::vector<float>* column : {&low, &high})
+    if (column->size() < lights + padding) column->resize(lights + padding);
+}
+
 void reserve_pairs(FroxelPairs& pairs, size_t count) {
   for (std::vector<uint32_t>* column : {&pairs.froxel, &pairs.light})
     if (column->size() < count + padding) column->resize(count + count / 4 + padding);
@@ -74,6 +79,11 @@ void BoxOffsets::build(const FroxelGrid& grid) {
 
 namespace scalar {
 
+DepthInterval depth_interval(float z, float radius) {
+  // What is in front of the camera plane only matters where it is positive, so that the factor always widens.
+  return {(z - radius) * 0.99999f, (z + radius) * 1.00001f};
+}
+
 FroxelBox bound_ball(const BoundsConstants& c, float x, float y, float z, float radius) {
   const gpu_data::ViewData& view = c.view;
   bool orthographic = view.orthographic != 0;
@@ -99,8 +109,8 @@ FroxelBox bound_ball(const BoundsConstants& c, float x, float y, float z, float 
           tile(column1),
           tile(row0),
           tile(row1),
-          slice((z - radius) * 0.99999f),
-          slice((z + radius) * 1.00001f)};
+          slice(depth_interval(z, radius).low),
+          slice(depth_interval(z, radius).high)};
 }
 
 void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& c,
@@ -136,7 +146,7 @@ void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConst
   }
 }
 
-void bound(const VisibleLights& visible, const BoundsConstants& c, LightBoxes& boxes) {
+void bound(const VisibleRun& visible, const BoundsConstants& c, LightBoxes& boxes) {
   boxes.reserve(visible.count);
   for (size_t i = 0; i < visible.count; ++i) {
     FroxelBox box = bound_ball(c, visible.x[i], visible.y[i], visible.z[i], visible.radius[i]);

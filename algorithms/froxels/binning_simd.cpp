@@ -2,13 +2,13 @@
 // same bits, on as many lights at once as the machine's registers hold. Compiled once for every instruction
 // set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "algorithms/clustered/binning_simd.cpp"
+#define HWY_TARGET_INCLUDE "algorithms/froxels/binning_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include <cmath>
 
-#include "algorithms/clustered/binning.h"
+#include "algorithms/froxels/binning.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ml::simd::HWY_NAMESPACE {
@@ -128,14 +128,14 @@ HWY_INLINE Interval perspective_interval(VF a, VF z, VF radius, VF near) {
 }
 
 template <bool orthographic>
-void bound_all(const VisibleLights& visible, const BoundsConstants& c, LightBoxes& boxes) {
+void bound_all(const VisibleRun& visible, const BoundsConstants& c, LightBoxes& boxes) {
   const size_t lanes = hn::Lanes(df);
   const VF near = constant(c.view.near), half_tile = constant(0.5f), inverse_tile = constant(c.inverse_tile);
   const VF before = constant(0.5f + widen_pixels), after = constant(0.5f - widen_pixels);
   const VU columns = hn::Set(du, c.grid.columns), slices = hn::Set(du, c.grid.slices), one = hn::Set(du, 1);
   for (size_t i = 0; i < visible.count; i += lanes) {
-    VF x = hn::LoadU(df, &visible.x[i]), y = hn::LoadU(df, &visible.y[i]), z = hn::LoadU(df, &visible.z[i]);
-    VF radius = hn::LoadU(df, &visible.radius[i]);
+    VF x = hn::LoadU(df, visible.x + i), y = hn::LoadU(df, visible.y + i), z = hn::LoadU(df, visible.z + i);
+    VF radius = hn::LoadU(df, visible.radius + i);
     Interval across, up;
     if constexpr (orthographic) {
       across = {hn::Sub(x, radius), hn::Add(x, radius)};
@@ -172,7 +172,7 @@ void bound_all(const VisibleLights& visible, const BoundsConstants& c, LightBoxe
   }
 }
 
-void bound(const VisibleLights& visible, const BoundsConstants& c, LightBoxes& boxes) {
+void bound(const VisibleRun& visible, const BoundsConstants& c, LightBoxes& boxes) {
   boxes.reserve(visible.count);
   if (c.view.orthographic)
     bound_all<true>(visible, c, boxes);
@@ -180,7 +180,16 @@ void bound(const VisibleLights& visible, const BoundsConstants& c, LightBoxes& b
     bound_all<false>(visible, c, boxes);
 }
 
-void emit(const VisibleLights& visible, const LightBoxes& boxes, const FroxelGrid& grid,
+void depth_ranges(const VisibleRun& visible, float* low, float* high) {
+  const size_t lanes = hn::Lanes(df);
+  for (size_t i = 0; i < visible.count; i += lanes) {
+    VF z = hn::LoadU(df, visible.z + i), radius = hn::LoadU(df, visible.radius + i);
+    hn::StoreU(hn::Mul(hn::Sub(z, radius), constant(0.99999f)), df, low + i);
+    hn::StoreU(hn::Mul(hn::Add(z, radius), constant(1.00001f)), df, high + i);
+  }
+}
+
+void emit(const VisibleRun& visible, const LightBoxes& boxes, const FroxelGrid& grid,
           const BoxOffsets& offsets, FroxelPairs& pairs) {
   const size_t lanes = hn::Lanes(du);
   uint32_t* froxel = pairs.froxel.data();
@@ -219,6 +228,13 @@ void emit(const VisibleLights& visible, const LightBoxes& boxes, const FroxelGri
   pairs.count = static_cast<size_t>(froxel - pairs.froxel.data());
 }
 
+void gather(std::span<const uint32_t> table, std::span<const uint32_t> places, uint32_t* to) {
+  const size_t lanes = hn::Lanes(du), whole = places.size() / lanes * lanes;
+  for (size_t i = 0; i < whole; i += lanes)
+    hn::StoreU(hn::GatherIndex(du, table.data(), hn::BitCast(ds, hn::LoadU(du, &places[i]))), du, to + i);
+  for (size_t i = whole; i < places.size(); ++i) to[i] = table[places[i]];
+}
+
 const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
@@ -231,19 +247,27 @@ namespace ml::simd {
 
 HWY_EXPORT(cull);
 HWY_EXPORT(bound);
+HWY_EXPORT(depth_ranges);
 HWY_EXPORT(emit);
+HWY_EXPORT(gather);
 HWY_EXPORT(target_name);
 
 void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
           VisibleLights& visible) {
   HWY_DYNAMIC_DISPATCH(cull)(lights, begin, end, constants, visible);
 }
-void bound(const VisibleLights& visible, const BoundsConstants& constants, LightBoxes& boxes) {
+void bound(const VisibleRun& visible, const BoundsConstants& constants, LightBoxes& boxes) {
   HWY_DYNAMIC_DISPATCH(bound)(visible, constants, boxes);
 }
-void emit(const VisibleLights& visible, const LightBoxes& boxes, const FroxelGrid& grid,
+void depth_ranges(const VisibleRun& visible, float* low, float* high) {
+  HWY_DYNAMIC_DISPATCH(depth_ranges)(visible, low, high);
+}
+void emit(const VisibleRun& visible, const LightBoxes& boxes, const FroxelGrid& grid,
           const BoxOffsets& offsets, FroxelPairs& pairs) {
   HWY_DYNAMIC_DISPATCH(emit)(visible, boxes, grid, offsets, pairs);
+}
+void gather(std::span<const uint32_t> table, std::span<const uint32_t> places, uint32_t* to) {
+  HWY_DYNAMIC_DISPATCH(gather)(table, places, to);
 }
 const char* target_name() {
   return HWY_DYNAMIC_DISPATCH(target_name)();

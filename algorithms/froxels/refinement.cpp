@@ -1,4 +1,4 @@
-#include "algorithms/clustered/refinement.h"
+#include "algorithms/froxels/refinement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,10 @@ float distance_to(float value, float low, float high) {
 
 }  // namespace
 
-RefinementPlanes::RefinementPlanes(const BoundsConstants& c) : slices(c.grid.slice_ranges()) {
+void RefinementPlanes::build(const BoundsConstants& c) {
+  c.grid.slice_ranges(slices);
+  row_low.clear();
+  row_high.clear();
   for (uint32_t row = 0; row < c.grid.rows; ++row) {
     auto first = static_cast<float>(row * c.grid.tile);
     float last = std::min(static_cast<float>((row + 1) * c.grid.tile), c.last_row_pixel + 1);
@@ -23,7 +26,7 @@ RefinementPlanes::RefinementPlanes(const BoundsConstants& c) : slices(c.grid.sli
   }
 }
 
-void emit_refined(const VisibleLights& visible, const LightBoxes& boxes, const BoundsConstants& c,
+void emit_refined(const VisibleRun& visible, const LightBoxes& boxes, const BoundsConstants& c,
                   const RefinementPlanes& planes, FroxelPairs& pairs) {
   const FroxelGrid& grid = c.grid;
   const bool orthographic = c.view.orthographic != 0;

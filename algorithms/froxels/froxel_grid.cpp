@@ -1,4 +1,4 @@
-#include "algorithms/clustered/froxel_grid.h"
+#include "algorithms/froxels/froxel_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +13,16 @@ FroxelGrid FroxelGrid::make(const gpu_data::ViewData& view, uint32_t tile, uint3
   grid.columns = (view.resolution.x + tile - 1) / tile;
   grid.rows = (view.resolution.y + tile - 1) / tile;
   grid.slices = slices;
-  float far = std::max(zmax > 0 ? zmax : view.far, zmin * 1.001f);
+  const float far = std::max(zmax > 0 ? zmax : view.far, zmin * 1.001f);
+  grid.near = view.near;
+  grid.far = far;
   float log_min = gpu_data::slice_log2(zmin);
   grid.mapping = {log_min, static_cast<float>(slices - 1) / (gpu_data::slice_log2(far) - log_min), slices};
   return grid;
 }
 
-std::vector<FroxelGrid::DepthRange> FroxelGrid::slice_ranges() const {
-  std::vector<DepthRange> ranges(slices);
+void FroxelGrid::slice_ranges(std::vector<DepthRange>& ranges) const {
+  ranges.resize(slices);
   auto boundary = [&](uint32_t slice) {
     return std::exp2(static_cast<double>(mapping.log_min) +
                      (slice - 1.0) / static_cast<double>(mapping.scale));
@@ -30,7 +32,6 @@ std::vector<FroxelGrid::DepthRange> FroxelGrid::slice_ranges() const {
     ranges[slice].high = slice + 1 == slices ? std::numeric_limits<float>::infinity()
                                              : static_cast<float>(boundary(slice + 1) * (1 + 1e-5));
   }
-  return ranges;
 }
 
 BoundsConstants::BoundsConstants(const gpu_data::ViewData& v, const FroxelGrid& g) : view(v), grid(g) {

@@ -3,7 +3,7 @@
 // row's and the slice's planes can reach.
 #pragma once
 
-#include "algorithms/clustered/binning.h"
+#include "algorithms/froxels/binning.h"
 
 namespace ml {
 
@@ -12,13 +12,12 @@ struct RefinementPlanes {
   std::vector<FroxelGrid::DepthRange> slices;
   // Window coordinate (slope or metres) of the lower and upper edge of each row's pixel centres, widened.
   std::vector<float> row_low, row_high;
-  RefinementPlanes() = default;
-  RefinementPlanes(const BoundsConstants& constants);
+  void build(const BoundsConstants& constants);
 };
 
 // Writes the pairs of all boxes, narrowed; never leaves out a froxel that holds a pixel centre's ray inside
 // the ball.
-void emit_refined(const VisibleLights& visible, const LightBoxes& boxes, const BoundsConstants& constants,
+void emit_refined(const VisibleRun& visible, const LightBoxes& boxes, const BoundsConstants& constants,
                   const RefinementPlanes& planes, FroxelPairs& pairs);
 
 }  // namespace ml

@@ -1,5 +1,5 @@
 // Clustered binning: conservative, the same as the scalar reference, independent of threads.
-#include "algorithms/clustered/cluster_lists.h"
+#include "algorithms/froxels/froxel_lists.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "algorithms/clustered/reference_lists.h"
+#include "algorithms/froxels/reference_lists.h"
 #include "harness/base/error.h"
 #include "harness/base/random.h"
 #include "harness/frame/frame_input.h"
@@ -54,8 +54,8 @@ std::vector<Light> random_lights(Random& random, uint32_t count, const Camera& c
   return lights;
 }
 
-ClusterSettings random_settings(Random& random) {
-  ClusterSettings settings;
+FroxelSettings random_settings(Random& random) {
+  FroxelSettings settings;
   settings.tile = 4 + random.below(60);
   settings.slices = 1 + random.below(40);
   settings.zmin = log_uniform(random, 0.1f, 50);
@@ -78,9 +78,9 @@ struct Fixture {
   }
 };
 
-std::vector<uint32_t> list_of(const ClusterLists& lists, uint32_t froxel) {
+std::vector<uint32_t> list_of(const FroxelLists& lists, uint32_t froxel) {
   auto indices =
-      lists.indices().subspan(lists.offsets()[froxel], lists.offsets()[froxel + 1] - lists.offsets()[froxel]);
+      lists.entries().subspan(lists.offsets()[froxel], lists.offsets()[froxel + 1] - lists.offsets()[froxel]);
   return {indices.begin(), indices.end()};
 }
 
@@ -94,14 +94,14 @@ glm::dvec3 point_at(const gpu_data::ViewData& view, uint32_t x, uint32_t y, doub
          glm::dvec3(view.forward) * depth;
 }
 
-TEST(ClusterLists, EveryLightIsListedWhereverAPixelCanSeeInsideIt) {
+TEST(FroxelLists, EveryLightIsListedWhereverAPixelCanSeeInsideIt) {
   for (uint32_t seed = 0; seed < 400; ++seed) {
     Random random(seed);
     const uint32_t width = 1 + random.below(200), height = 1 + random.below(200);
     Camera camera = random_camera(random);
     Fixture fixture(random_lights(random, 60, camera), camera, width, height);
-    ClusterSettings settings = random_settings(random);
-    ClusterLists lists;
+    FroxelSettings settings = random_settings(random);
+    FroxelLists lists{"clustered"};
     Spans spans;
     lists.build(fixture.frame, settings, no_limit, spans);
     const gpu_data::ViewData& view = fixture.frame.view;
@@ -122,39 +122,39 @@ TEST(ClusterLists, EveryLightIsListedWhereverAPixelCanSeeInsideIt) {
   }
 }
 
-TEST(ClusterLists, VectorCodeGivesTheReferencesBits) {
+TEST(FroxelLists, VectorCodeGivesTheReferencesBits) {
   for (uint32_t seed = 0; seed < 300; ++seed) {
     Random random(1000 + seed);
     Camera camera = random_camera(random);
     Fixture fixture(random_lights(random, random.below(700), camera), camera, 1 + random.below(400),
                     1 + random.below(400));
-    ClusterSettings settings = random_settings(random);
+    FroxelSettings settings = random_settings(random);
     settings.refinement = false;
-    ClusterLists lists;
+    FroxelLists lists{"clustered"};
     ReferenceLists reference;
     Spans spans;
     lists.build(fixture.frame, settings, no_limit, spans);
     reference.build(fixture.frame, settings);
     ASSERT_TRUE(std::ranges::equal(lists.offsets(), reference.offsets())) << "seed " << seed;
-    ASSERT_TRUE(std::ranges::equal(lists.indices(), reference.indices())) << "seed " << seed;
+    ASSERT_TRUE(std::ranges::equal(lists.entries(), reference.entries())) << "seed " << seed;
   }
 }
 
-TEST(ClusterLists, RefinementOnlyTakesAway) {
+TEST(FroxelLists, RefinementOnlyTakesAway) {
   size_t plain = 0, refined = 0;
   for (uint32_t seed = 0; seed < 100; ++seed) {
     Random random(2000 + seed);
     Camera camera = random_camera(random);
     Fixture fixture(random_lights(random, 200, camera), camera, 320, 180);
-    ClusterSettings settings = random_settings(random);
-    ClusterLists with, without;
+    FroxelSettings settings = random_settings(random);
+    FroxelLists with{"clustered"}, without{"clustered"};
     Spans spans;
     settings.refinement = true;
     with.build(fixture.frame, settings, no_limit, spans);
     settings.refinement = false;
     without.build(fixture.frame, settings, no_limit, spans);
-    plain += without.indices().size();
-    refined += with.indices().size();
+    plain += without.entries().size();
+    refined += with.entries().size();
     for (uint32_t froxel = 0; froxel < with.grid().cells(); ++froxel) {
       std::vector<uint32_t> fewer = list_of(with, froxel), more = list_of(without, froxel);
       ASSERT_TRUE(std::ranges::includes(more, fewer)) << "seed " << seed << ", froxel " << froxel;
@@ -163,23 +163,23 @@ TEST(ClusterLists, RefinementOnlyTakesAway) {
   EXPECT_LT(refined, plain);
 }
 
-TEST(ClusterLists, DoNotDependOnTheNumberOfThreads) {
+TEST(FroxelLists, DoNotDependOnTheNumberOfThreads) {
   for (uint32_t count : {0u, 1u, 2047u, 4096u, 65535u, 65536u, 65537u}) {
     Random random(count);
     Camera camera = random_camera(random);
     std::vector<Light> lights = random_lights(random, count, camera);
     for (Light& light : lights) light.radius *= 0.05f;
     for (bool refinement : {false, true}) {
-      ClusterSettings settings;
+      FroxelSettings settings;
       settings.refinement = refinement;
       std::vector<std::vector<uint32_t>> results;
       for (unsigned threads : {1u, 2u, 7u}) {
         Fixture fixture(lights, camera, 640, 360, threads);
-        ClusterLists lists;
+        FroxelLists lists{"clustered"};
         Spans spans;
         lists.build(fixture.frame, settings, no_limit, spans);
         results.emplace_back(lists.offsets().begin(), lists.offsets().end());
-        results.back().insert(results.back().end(), lists.indices().begin(), lists.indices().end());
+        results.back().insert(results.back().end(), lists.entries().begin(), lists.entries().end());
       }
       ASSERT_EQ(results[0], results[1]) << count;
       ASSERT_EQ(results[0], results[2]) << count;
@@ -187,49 +187,49 @@ TEST(ClusterLists, DoNotDependOnTheNumberOfThreads) {
   }
 }
 
-TEST(ClusterLists, AFrameWithFewerLightsLeavesNothingBehind) {
+TEST(FroxelLists, AFrameWithFewerLightsLeavesNothingBehind) {
   Random random(5);
   Camera camera = random_camera(random);
   std::vector<Light> many = random_lights(random, 5000, camera), few(many.begin(), many.begin() + 10);
   Fixture large(many, camera, 640, 360), small(few, camera, 64, 64);
-  ClusterSettings settings;
-  ClusterLists reused, fresh;
+  FroxelSettings settings;
+  FroxelLists reused{"clustered"}, fresh{"clustered"};
   Spans spans;
   reused.build(large.frame, settings, no_limit, spans);
   reused.build(small.frame, settings, no_limit, spans);
   fresh.build(small.frame, settings, no_limit, spans);
   EXPECT_TRUE(std::ranges::equal(reused.offsets(), fresh.offsets()));
-  EXPECT_TRUE(std::ranges::equal(reused.indices(), fresh.indices()));
+  EXPECT_TRUE(std::ranges::equal(reused.entries(), fresh.entries()));
 }
 
-TEST(ClusterLists, MoreEntriesThanTheLimitAreRefusedBeforeMemoryIsTaken) {
+TEST(FroxelLists, MoreEntriesThanTheLimitAreRefusedBeforeMemoryIsTaken) {
   Camera camera;
   camera.projection = Projection::perspective(1, 1, 0.1f, 100);
   std::vector<Light> lights(65536);
   for (Light& light : lights) light.radius = 1000;  // each covers the whole view
   Fixture fixture(lights, camera, 1920, 1080);
-  ClusterLists lists;
+  FroxelLists lists{"clustered"};
   Spans spans;
   for (bool refinement : {false, true}) {
-    ClusterSettings settings;
+    FroxelSettings settings;
     settings.refinement = refinement;
     EXPECT_THROW(lists.build(fixture.frame, settings, 1 << 25, spans), SystemError);
   }
 }
 
-TEST(ClusterLists, AllLightsInOneFroxel) {
+TEST(FroxelLists, AllLightsInOneFroxel) {
   Camera camera;
   camera.projection = Projection::perspective(1, 1, 0.1f, 100);
   for (uint32_t count : {65535u, 65536u, 65537u}) {
     std::vector<Light> lights(count);
     for (Light& light : lights) light.position = {0.3, 0.3, -3}, light.radius = 0.1f;
     Fixture fixture(lights, camera, 64, 64);
-    ClusterSettings settings;
+    FroxelSettings settings;
     settings.tile = 64;
-    ClusterLists lists;
+    FroxelLists lists{"clustered"};
     Spans spans;
     lists.build(fixture.frame, settings, no_limit, spans);
-    EXPECT_EQ(lists.indices().size(), count);
+    EXPECT_EQ(lists.entries().size(), count);
   }
 }
 

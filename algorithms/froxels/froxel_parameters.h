@@ -1,0 +1,22 @@
+// The parameters of a froxel grid, as every algorithm that has one shows them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algorithms/froxels/froxel_lists.h"
+#include "algorithms/parameters.h"
+
+namespace ml {
+
+// tile, slices, zmin, zmax, refinement.
+std::vector<ParameterInfo> froxel_parameters();
+FroxelSettings froxel_settings(const Parameters& parameters);
+// What is wrong with their combination at this resolution, or "".
+std::string froxel_check(const Parameters& parameters, uint32_t width, uint32_t height);
+
+// How pixels walk the lights of a cell: `walk`.
+ParameterInfo walk_parameter();
+bool walk_together(const Parameters& parameters);
+
+}  // namespace ml

@@ -1,0 +1,73 @@
+#include "algorithms/froxels/reference_lists.h"
+
+#include <array>
+#include <numeric>
+#include <utility>
+
+namespace ml {
+namespace {
+
+template <typename Visit>
+void for_each_froxel(const FroxelBox& box, const FroxelGrid& grid, Visit visit) {
+  if (box.empty()) return;
+  for (uint32_t y = box.y0; y <= box.y1; ++y)
+    for (uint32_t x = box.x0; x <= box.x1; ++x)
+      for (uint32_t z = box.z0; z <= box.z1; ++z) visit((y * grid.columns + x) * grid.slices + z);
+}
+
+}  // namespace
+
+// Least significant byte first; stable.
+void ReferenceLists::sort_by_depth() {
+  const size_t count = visible_.count;
+  keys_.resize(count);
+  order_.resize(count);
+  scratch_.resize(count);
+  for (size_t i = 0; i < count; ++i) keys_[i] = depth_key(visible_.z[i]);
+  std::iota(order_.begin(), order_.end(), 0u);
+  for (uint32_t shift = 0; shift < depth_key_bits; shift += 8) {
+    std::array<uint32_t, 256> next{};
+    for (uint32_t key : keys_) ++next[key >> shift & 255];
+    uint32_t running = 0;
+    for (uint32_t& place : next) running += std::exchange(place, running);
+    for (uint32_t i : order_) scratch_[next[keys_[i] >> shift & 255]++] = i;
+    order_.swap(scratch_);
+  }
+  sorted_.reserve(count);
+  light_of_rank_.resize(count);
+  depth_of_rank_.resize(count);
+  for (size_t rank = 0; rank < count; ++rank) {
+    uint32_t i = order_[rank];
+    sorted_.x[rank] = visible_.x[i];
+    sorted_.y[rank] = visible_.y[i];
+    sorted_.z[rank] = visible_.z[i];
+    sorted_.radius[rank] = visible_.radius[i];
+    sorted_.index[rank] = static_cast<uint32_t>(rank);
+    light_of_rank_[rank] = visible_.index[i];
+    depth_of_rank_[rank] = scalar::depth_interval(visible_.z[i], visible_.radius[i]);
+  }
+  sorted_.count = count;
+}
+
+void ReferenceLists::build(const FrameInput& frame, const FroxelSettings& settings) {
+  grid_ = FroxelGrid::make(frame.view, settings.tile, settings.slices, settings.zmin, settings.zmax);
+  const BoundsConstants constants(frame.view, grid_);
+  scalar::cull(frame.lights, 0, frame.lights.count(), constants, visible_);
+  const bool by_depth = settings.order == FroxelSettings::Order::depth;
+  if (by_depth) sort_by_depth();
+  const VisibleLights& lights = by_depth ? sorted_ : visible_;
+  boxes_.resize(lights.count);
+  for (size_t i = 0; i < lights.count; ++i)
+    boxes_[i] = scalar::bound_ball(constants, lights.x[i], lights.y[i], lights.z[i], lights.radius[i]);
+
+  offsets_.assign(grid_.cells() + size_t{1}, 0);
+  for (const FroxelBox& box : boxes_)
+    for_each_froxel(box, grid_, [&](uint32_t froxel) { ++offsets_[froxel + 1]; });
+  for (uint32_t froxel = 0; froxel < grid_.cells(); ++froxel) offsets_[froxel + 1] += offsets_[froxel];
+  next_.assign(offsets_.begin(), offsets_.end() - 1);
+  entries_.resize(offsets_.back());
+  for (size_t i = 0; i < lights.count; ++i)
+    for_each_froxel(boxes_[i], grid_, [&](uint32_t froxel) { entries_[next_[froxel]++] = lights.index[i]; });
+}
+
+}  // namespace ml

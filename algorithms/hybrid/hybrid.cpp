@@ -1,0 +1,70 @@
+#include "algorithms/hybrid/hybrid.h"
+
+#include "algorithms/froxels/froxel_parameters.h"
+#include "algorithms/trees/tree_prepare.h"
+#include "spirv/hybrid_shade.h"
+#include "spirv/hybrid_shade_counting.h"
+
+namespace ml {
+namespace {
+
+ForestSettings forest_settings(const Parameters& p) {
+  ForestSettings settings = tree_settings(p);
+  settings.threshold = static_cast<float>(p.real("threshold"));
+  return settings;
+}
+
+class Hybrid final : public Algorithm {
+ public:
+  explicit Hybrid(const Parameters& p)
+      : trees_("hybrid", froxel_settings(p), forest_settings(p)),
+        together_(walk_together(p)),
+        list_case_(p.boolean("list_case")),
+        shared_tree_(p.boolean("shared_tree")) {}
+
+  void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override {
+    trees_.prepare(frame, memory, spans);
+  }
+  PrepareCounters counters() const override { return trees_.counters(); }
+  std::vector<std::string> buffers() const override { return TreePrepare::buffers(); }
+  bool walks_together() const override { return together_; }
+  ShadeShaders shade_shaders() const override { return {hybrid_shade, hybrid_shade_counting}; }
+  std::vector<uint32_t> shade_constants() const override { return {list_case_, shared_tree_}; }
+
+ private:
+  TreePrepare trees_;
+  bool together_, list_case_, shared_tree_;
+};
+
+}  // namespace
+
+AlgorithmEntry hybrid_entry() {
+  AlgorithmEntry entry;
+  entry.info.name = "hybrid";
+  entry.info.summary = "froxels that hold a list or a tree, built on the CPU";
+  entry.info.paper = "O'Donnell & Chajdas, Tiled Light Trees, I3D 2017";
+  entry.info.cpu_stages = {"cull", "sort", "bin", "build", "upload"};
+  entry.info.gpu_stages = {"shade"};
+  entry.info.shapes = {"omni", "spot"};
+  entry.parameters = froxel_parameters();
+  for (ParameterInfo& info : tree_parameters()) entry.parameters.push_back(std::move(info));
+  entry.parameters.push_back(ParameterInfo::real(
+      "threshold", 1, 0, 1e6,
+      "a froxel is a tree when its lights' clipped depth extents are on average below this part of its own "
+      "(listing 2: 0.5, the text: 1)"));
+  entry.parameters.push_back(ParameterInfo::boolean(
+      "list_case", false, "subgroups that walk nothing but lists have a loop of their own (section 3.4)"));
+  entry.parameters.push_back(ParameterInfo::boolean(
+      "shared_tree", false,
+      "subgroups that walk one and the same tree copy it to shared memory first (section 3.4)"));
+  entry.parameters.push_back(walk_parameter());
+  entry.check = [](const Parameters& p, uint32_t width, uint32_t height) -> std::string {
+    if (walk_together(p) && (p.boolean("list_case") || p.boolean("shared_tree")))
+      return "list_case and shared_tree are ways of walking alone; set walk to pixel";
+    return froxel_check(p, width, height);
+  };
+  entry.create = [](const Parameters& parameters) { return std::make_unique<Hybrid>(parameters); };
+  return entry;
+}
+
+}  // namespace ml

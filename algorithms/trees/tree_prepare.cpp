@@ -1,0 +1,76 @@
+#include "algorithms/trees/tree_prepare.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <limits>
+
+#include "harness/base/error.h"
+
+namespace ml {
+namespace {
+
+enum Slot : uint32_t { grid_slot, first_nodes_slot, nodes_slot, indices_slot };
+
+// As the walk reads it.
+struct GridHeader {
+  gpu_data::SliceMapping mapping;
+  uint32_t tile, columns, slices;
+};
+
+}  // namespace
+
+TreePrepare::TreePrepare(const std::string& owner, const FroxelSettings& froxels, const ForestSettings& trees)
+    : owner_(owner), froxels_(froxels), trees_(trees), lists_(owner) {
+  froxels_.order = FroxelSettings::Order::depth;
+}
+
+void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) {
+  lists_.build(frame, froxels_, memory.limit() / sizeof(uint32_t), spans);
+  {
+    auto span = spans.span("build");
+    forest_.build(lists_, trees_, *frame.threads);
+  }
+  const uint64_t node_bytes = forest_.nodes() * sizeof(gpu_data::TreeNode);
+  if (node_bytes > memory.limit())
+    throw SystemError(
+        fmt::format("{}: the trees would take {} bytes, the device's buffer holds {}; use fewer lights, "
+                    "larger tiles or more "
+                    "lights per leaf",
+                    owner_, node_bytes, memory.limit()));
+
+  auto span = spans.span("upload");
+  const FroxelGrid& grid = lists_.grid();
+  const GridHeader header{grid.mapping, grid.tile, grid.columns, grid.slices};
+  std::memcpy(memory.map(grid_slot, sizeof header).data(), &header, sizeof header);
+  const auto first_nodes = forest_.first_nodes();
+  std::memcpy(memory.map(first_nodes_slot, first_nodes.size_bytes()).data(), first_nodes.data(),
+              first_nodes.size_bytes());
+  forest_.copy_nodes(reinterpret_cast<gpu_data::TreeNode*>(memory.map(nodes_slot, node_bytes).data()),
+                     *frame.threads);
+  const auto entries = lists_.entries();
+  simd::gather(lists_.light_of_rank(), entries,
+               reinterpret_cast<uint32_t*>(memory.map(indices_slot, entries.size_bytes()).data()));
+
+  counters_.in_frustum = lists_.lights_in_frustum();
+  counters_.list_bytes = first_nodes.size_bytes() + node_bytes + entries.size_bytes();
+  counters_.list_cells = forest_.list_cells();
+  counters_.tree_cells = forest_.tree_cells();
+}
+
+std::vector<ParameterInfo> tree_parameters() {
+  return {
+      ParameterInfo::integer("lights_per_leaf", 8, 1, 64,
+                             "lights in a leaf; raised where a tree would have more than 4096 leaves"),
+      ParameterInfo::boolean("trim_padding", true, "leave out the nodes behind a tree's last light"),
+  };
+}
+
+ForestSettings tree_settings(const Parameters& parameters) {
+  ForestSettings settings;
+  settings.lights_per_leaf = static_cast<uint32_t>(parameters.integer("lights_per_leaf"));
+  settings.trim_padding = parameters.boolean("trim_padding");
+  return settings;
+}
+
+}  // namespace ml

@@ -1,0 +1,36 @@
+// prepare() of the algorithms that walk trees: lists in the order of depth, a forest over them, upload.
+#pragma once
+
+#include "algorithms/algorithm.h"
+#include "algorithms/trees/forest.h"
+
+namespace ml {
+
+class TreePrepare {
+ public:
+  // `owner`: the algorithm's name for messages.
+  TreePrepare(const std::string& owner, const FroxelSettings& froxels, const ForestSettings& trees);
+
+  // Spans cull, sort, bin, build, upload.
+  void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans);
+  const PrepareCounters& counters() const { return counters_; }
+  // The upload slots, as tree_walk.glsl names them.
+  static std::vector<std::string> buffers() { return {"Grid", "FirstNodes", "TreeNodes", "Indices"}; }
+
+  const FroxelLists& lists() const { return lists_; }
+  const Forest& forest() const { return forest_; }
+
+ private:
+  std::string owner_;
+  FroxelSettings froxels_;
+  ForestSettings trees_;
+  FroxelLists lists_;
+  Forest forest_;
+  PrepareCounters counters_;
+};
+
+// The parameters that both have.
+std::vector<ParameterInfo> tree_parameters();
+ForestSettings tree_settings(const Parameters& parameters);
+
+}  // namespace ml

@@ -1,0 +1,100 @@
+// What the benchmarks of prepare() share: light sets, memory to upload to, and how results are reported.
+//
+// Two light sets: `view` has every light in the view, at depths spread as the slices are, with radii that
+// give about 4 froxels a light; `canyon` is the canyon scene at its overlook, where most lights are culled.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "algorithms/froxels/binning.h"
+#include "harness/base/random.h"
+#include "harness/frame/frame_input.h"
+
+namespace ml::bench_inputs {
+
+constexpr uint32_t width = 1920, height = 1080;
+
+struct Input {
+  Threads threads;
+  FrameLightStorage storage;
+  FrameInput frame;
+  Input(const std::vector<Light>& lights, const Camera& camera, unsigned thread_count)
+      : threads(thread_count) {
+    storage.fill(lights, camera.position);
+    frame.view = view_data(camera, width, height, static_cast<uint32_t>(lights.size()));
+    frame.lights = storage.lights();
+    frame.threads = &threads;
+  }
+};
+
+using MakeInput = std::unique_ptr<Input> (*)(uint32_t, unsigned);
+
+inline std::unique_ptr<Input> view_input(uint32_t count, unsigned threads) {
+  Camera camera;
+  camera.projection = Projection::perspective(1.0471976f, static_cast<float>(width) / height, 0.1f, 500);
+  Random random(1);
+  std::vector<Light> lights(count);
+  for (Light& light : lights) {
+    float depth = 5 * std::pow(100.0f, random.uniform());
+    float x = random.uniform(camera.projection.left, camera.projection.right) * depth;
+    float y = random.uniform(camera.projection.bottom, camera.projection.top) * depth;
+    light.position = {x, y, -depth};
+    light.radius = depth * 0.0085f * pareto_radius(random.uniform(), 1, 32);
+  }
+  return std::make_unique<Input>(lights, camera, threads);
+}
+
+inline std::unique_ptr<Input> canyon_input(uint32_t count, unsigned threads) {
+  static const Scene scene = [] {
+    SceneSpec spec;
+    spec.procedural = "canyon";
+    return load_scene(spec);
+  }();
+  LightSpec spec;
+  spec.count = count;
+  LightSet set(spec, scene);
+  Camera camera = scene.path("default").sample(90, 120, width, height, scene.near, scene.far);
+  return std::make_unique<Input>(set.base(), camera, threads);
+}
+
+class PlainMemory final : public UploadMemory {
+ public:
+  std::span<std::byte> map(uint32_t slot, size_t bytes) override {
+    if (slots_[slot].size() < bytes) slots_[slot].resize(bytes + bytes / 4);
+    return std::span(slots_[slot]).first(bytes);
+  }
+  size_t limit() const override { return size_t{1} << 30; }
+
+ private:
+  std::array<std::vector<std::byte>, 8> slots_;
+};
+
+inline void report(benchmark::State& state, size_t lights, size_t entries) {
+  state.counters["ns_per_light"] =
+      benchmark::Counter(static_cast<double>(lights),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["cells_per_light"] = static_cast<double>(entries) / static_cast<double>(lights);
+}
+
+inline void report_stages(benchmark::State& state, const Spans& spans) {
+  for (const auto& [name, ms] : spans.sums())
+    state.counters[name + "_ns_per_light"] =
+        ms * 1e6 / static_cast<double>(state.iterations()) / static_cast<double>(state.range(0));
+}
+
+inline int run(int argc, char** argv) {
+  benchmark::AddCustomContext("build_type", ML_BUILD_TYPE);
+  benchmark::AddCustomContext("simd", simd::target_name());
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
+
+}  // namespace ml::bench_inputs

@@ -1,0 +1,78 @@
+// The shading loop for subgroups whose pixels walk lights together (WALK_TOGETHER). Included by shade.comp for cursors with CURSOR_RUNS.
+#ifndef ML_SHADE_TOGETHER_GLSL
+#define ML_SHADE_TOGETHER_GLSL
+
+LightCore light_of_lane(LightCore own, uint lane) {
+  LightCore light;
+  light.position = vec3(subgroupShuffle(own.position.x, lane), subgroupShuffle(own.position.y, lane), subgroupShuffle(own.position.z, lane));
+  light.radius = subgroupShuffle(own.radius, lane);
+  light.intensity = vec3(subgroupShuffle(own.intensity.x, lane), subgroupShuffle(own.intensity.y, lane), subgroupShuffle(own.intensity.z, lane));
+  light.id_shape = subgroupShuffle(own.id_shape, lane);
+  return light;
+}
+
+// Tests the light that `lane` fetched, and notes in `contributing` whether it contributes.
+void test_lane(SurfacePoint point, LightCore own, uint lane, uint batch, bool wanted, inout uint contributing) {
+  LightSample from;
+  const LightCore data = light_of_lane(own, min(lane, batch - 1u));
+  if (wanted && lane < batch && test_light(point, data, from)) contributing |= 1u << lane;
+}
+
+// Adds the first light of `contributing`, which may be none, and takes it out.
+void add_lane(SurfacePoint point, LightCore own, inout uint contributing, inout VEC3 sum) {
+  LightSample from;
+  const LightCore data = light_of_lane(own, contributing != 0u ? uint(findLSB(contributing)) : 0u);
+  if (contributing != 0u && light_sample(point, data, from)) add_light(point, data, from, 1.0, sum);
+  contributing &= contributing - 1u;
+}
+
+// Tests and shades the lights of one run for the pixels that want them. Each lane fetches one light, and hands it to the others when its turn
+// comes, so that a light is fetched once for all of them. Lights that contribute are remembered as bits, and shaded when the batch is tested: in
+// the order of the run, as everywhere. No lane leaves before all are done, for none may be missing in a shuffle. Several lights a turn: loops
+// are short of turns on some drivers (light_eval.glsl, LONG_LISTS).
+void shade_run(SurfacePoint point, uint first, uint count, bool wanted, inout VEC3 sum) {
+  const uint lanes = min(gl_SubgroupSize, 32u);
+  for (uint begin = 0u; begin < count; begin += lanes) {
+    const uint batch = min(count - begin, lanes);
+    const LightCore own = CURSOR_LIGHT(run_light(first + begin + min(gl_SubgroupInvocationID, batch - 1u)));
+    uint contributing = 0u;
+    for (uint i = 0u; i < batch; i += LONG_LISTS ? 8u : 4u) {
+      test_lane(point, own, i, batch, wanted, contributing);
+      test_lane(point, own, i + 1u, batch, wanted, contributing);
+      test_lane(point, own, i + 2u, batch, wanted, contributing);
+      test_lane(point, own, i + 3u, batch, wanted, contributing);
+      if (LONG_LISTS) {
+        test_lane(point, own, i + 4u, batch, wanted, contributing);
+        test_lane(point, own, i + 5u, batch, wanted, contributing);
+        test_lane(point, own, i + 6u, batch, wanted, contributing);
+        test_lane(point, own, i + 7u, batch, wanted, contributing);
+      }
+    }
+    while (subgroupAny(contributing != 0u)) {
+      add_lane(point, own, contributing, sum);
+      if (LONG_LISTS) {
+        add_lane(point, own, contributing, sum);
+        add_lane(point, own, contributing, sum);
+        add_lane(point, own, contributing, sum);
+      }
+    }
+  }
+}
+
+// The pixels that lie in one cell walk it together, one cell after the other. `lit`: false for lanes that only help.
+void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
+  const uint none = 0xffffffffu;
+  uint left = lit ? light_cell(point) : none;
+  while (true) {
+    const uint cell = subgroupMin(left);
+    if (cell == none) break;
+    const bool here = left == cell;
+    if (here) left = none;
+    LightCursor cursor = cell_begin(cell, point.depth, here);
+    uint first, count;
+    bool wanted;
+    while (light_next_run(cursor, here, first, count, wanted)) shade_run(point, first, count, wanted, sum);
+  }
+}
+
+#endif
