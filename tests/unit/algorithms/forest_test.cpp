@@ -1,0 +1,238 @@
+// Light trees: every light is reached wherever it may shine, the same as the scalar reference, within the node's
+// fields, independent of threads.
+#include "algorithms/trees/forest.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "algorithms/trees/reference_forest.h"
+#include "algorithms/trees/tree_prepare.h"
+#include "binning_cases.h"
+#include "plain_memory.h"
+
+namespace ml {
+namespace {
+
+using namespace test;
+using gpu_data::TreeNode;
+
+constexpr uint64_t no_limit = uint64_t{1} << 28;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+ForestSettings random_forest(Random& random) {
+  ForestSettings settings;
+  settings.lights_per_leaf = 1 + random.below(64);
+  constexpr float thresholds[] = {0, 0.25f, 0.5f, 1, infinity};
+  settings.threshold = thresholds[random.below(5)];
+  settings.trim_padding = random.below(2) != 0;
+  return settings;
+}
+
+struct Trees {
+  FroxelLists lists{"test"};
+  Forest forest;
+  std::vector<TreeNode> nodes;
+  Trees(const FrameInput& frame, FroxelSettings froxels, const ForestSettings& settings) {
+    froxels.order = FroxelSettings::Order::depth;
+    Spans spans;
+    lists.build(frame, froxels, no_limit, spans);
+    forest.build(lists, settings, *frame.threads);
+    nodes.resize(forest.nodes());
+    forest.copy_nodes(nodes.data(), *frame.threads);
+  }
+  // Listing 3: the lights that a pixel of this cell and depth gets to see, in order.
+  std::vector<uint32_t> walk(uint32_t cell, float depth) const {
+    std::vector<uint32_t> lights;
+    for (uint32_t i = forest.first_nodes()[cell]; i < forest.first_nodes()[cell + 1];) {
+      const TreeNode& node = nodes[i];
+      const bool hit = node.low <= depth && depth <= node.high;
+      if (hit && tree_is_leaf(node))
+        for (uint32_t k = 0; k < tree_leaf_lights(node); ++k)
+          lights.push_back(lists.light_of_rank()[lists.entries()[node.first_or_below + k]]);
+      i += hit ? 1 : tree_skip(node);
+    }
+    return lights;
+  }
+};
+
+TEST(Forest, EveryLightIsReachedWhereverAPixelCanSeeInsideIt) {
+  for (uint32_t seed = 0; seed < 300; ++seed) {
+    Random random(seed);
+    const uint32_t width = 1 + random.below(200), height = 1 + random.below(200);
+    Camera camera = random_camera(random);
+    BinningFrame fixture(random_lights(random, 80, camera), camera, width, height);
+    FroxelSettings settings = random_settings(random);
+    Trees trees(fixture.frame, settings, random_forest(random));
+    const gpu_data::ViewData& view = fixture.frame.view;
+    for (uint32_t sample = 0; sample < 200; ++sample) {
+      uint32_t x = random.below(width), y = random.below(height);
+      float depth = log_uniform(random, view.near, std::min(view.far, 1000.0f));
+      glm::dvec3 point = point_at(view, x, y, static_cast<double>(depth));
+      uint32_t cell = ((y / settings.tile) * trees.lists.grid().columns + x / settings.tile) * settings.slices +
+                      gpu_data::slice_of_depth(depth, trees.lists.grid().mapping);
+      std::vector<uint32_t> reached = trees.walk(cell, depth);
+      std::sort(reached.begin(), reached.end());
+      ASSERT_TRUE(std::adjacent_find(reached.begin(), reached.end()) == reached.end()) << "twice, seed " << seed;
+      for (uint32_t light = 0; light < fixture.frame.lights.count(); ++light) {
+        const gpu_data::LightCore& core = fixture.frame.lights.core[light];
+        bool inside = glm::distance(glm::dvec3(core.position), point) < static_cast<double>(core.radius);
+        ASSERT_TRUE(!inside || std::binary_search(reached.begin(), reached.end(), light))
+            << "seed " << seed << ", light " << light << ", pixel " << x << "," << y << ", depth " << depth;
+      }
+    }
+  }
+}
+
+TEST(Forest, FastPathGivesTheReferencesBits) {
+  for (uint32_t seed = 0; seed < 300; ++seed) {
+    Random random(1000 + seed);
+    Camera camera = random_camera(random);
+    BinningFrame fixture(random_lights(random, random.below(1500), camera), camera, 1 + random.below(400),
+                         1 + random.below(400));
+    FroxelSettings froxels = random_settings(random);
+    froxels.refinement = false;
+    froxels.order = FroxelSettings::Order::depth;
+    const ForestSettings settings = random_forest(random);
+    Trees trees(fixture.frame, froxels, settings);
+    ReferenceLists lists;
+    ReferenceForest reference;
+    lists.build(fixture.frame, froxels);
+    reference.build(lists, settings);
+    ASSERT_TRUE(std::ranges::equal(trees.lists.light_of_rank(), lists.light_of_rank())) << "seed " << seed;
+    ASSERT_TRUE(std::ranges::equal(trees.lists.entries(), lists.entries())) << "seed " << seed;
+    ASSERT_TRUE(std::ranges::equal(trees.forest.first_nodes(), reference.first_nodes())) << "seed " << seed;
+    ASSERT_EQ(trees.nodes.size(), reference.nodes().size()) << "seed " << seed;
+    for (size_t i = 0; i < trees.nodes.size(); ++i) {
+      const TreeNode &fast = trees.nodes[i], &plain = reference.nodes()[i];
+      ASSERT_TRUE(fast.low == plain.low && fast.high == plain.high && fast.first_or_below == plain.first_or_below &&
+                  fast.packed == plain.packed)
+          << "seed " << seed << ", node " << i;
+    }
+  }
+}
+
+TEST(Forest, DepthFirstPlacesAreThoseOfAWalk) {
+  for (uint32_t height = 0; height <= 12; ++height) {
+    std::vector<std::pair<uint32_t, uint32_t>> order;  // (level, index)
+    auto visit = [&](auto& self, uint32_t level, uint32_t index) -> void {
+      order.emplace_back(level, index);
+      if (level < height) self(self, level + 1, 2 * index), self(self, level + 1, 2 * index + 1);
+    };
+    visit(visit, 0, 0);
+    for (uint32_t place = 0; place < order.size(); ++place)
+      ASSERT_EQ(depth_first_place(height, order[place].first, order[place].second), place);
+  }
+}
+
+TEST(Forest, OneTileHoldsAsManyLightsAsAFrameHas) {
+  Camera camera;
+  camera.projection = Projection::perspective(1, 1, 0.1f, 100);
+  for (uint32_t count : {1u, 8u, 9u, 65535u, 65536u, 65537u, 262144u}) {
+    std::vector<Light> lights(count);
+    for (uint32_t i = 0; i < count; ++i)
+      lights[i].position = {0.1, 0.1, -3 - 20.0 * i / count}, lights[i].radius = 0.01f;
+    BinningFrame fixture(lights, camera, 64, 64);
+    for (float threshold : {0.0f, 1.0f, infinity})
+      for (uint32_t per_leaf : {1u, 8u, 64u}) {
+        FroxelSettings froxels;
+        froxels.tile = 64;
+        froxels.slices = 1;
+        ForestSettings settings;
+        settings.threshold = threshold;
+        settings.lights_per_leaf = per_leaf;
+        Trees trees(fixture.frame, froxels, settings);
+        uint64_t below = 0;
+        for (const TreeNode& node : trees.nodes)
+          if (tree_is_leaf(node)) below += tree_leaf_lights(node);
+        EXPECT_EQ(below, count);
+        // Any one light is found at its own depth, and from a tree few others.
+        const uint32_t light = count / 2;
+        const float depth = static_cast<float>(3 + 20.0 * light / count);
+        std::vector<uint32_t> reached = trees.walk(0, depth);
+        EXPECT_TRUE(std::ranges::find(reached, light) != reached.end()) << count << " " << threshold;
+        if (threshold == infinity && count > 1000) {
+          EXPECT_LT(reached.size(), count / 100 + 200);
+        }
+      }
+  }
+}
+
+TEST(Forest, PaddingIsNeverHit) {
+  Random random(3);
+  Camera camera = random_camera(random);
+  BinningFrame fixture(random_lights(random, 1000, camera), camera, 320, 180);
+  ForestSettings settings;
+  settings.lights_per_leaf = 3;
+  settings.threshold = infinity;
+  size_t full = 0, trimmed = 0;
+  for (bool trim : {false, true}) {
+    settings.trim_padding = trim;
+    Trees trees(fixture.frame, {}, settings);
+    for (const TreeNode& node : trees.nodes) {
+      if (!tree_is_leaf(node) || tree_leaf_lights(node) > 0) continue;
+      EXPECT_GT(node.low, node.high);
+    }
+    (trim ? trimmed : full) = trees.nodes.size();
+  }
+  EXPECT_LT(trimmed, full);
+}
+
+TEST(Forest, ThresholdChoosesListsAndTrees) {
+  Random random(4);
+  Camera camera = random_camera(random);
+  BinningFrame fixture(random_lights(random, 3000, camera), camera, 320, 180);
+  ForestSettings settings;
+  uint64_t trees_before = 0, cells = 0;
+  for (float threshold : {0.0f, 0.25f, 0.5f, 1.0f, infinity}) {
+    settings.threshold = threshold;
+    Trees trees(fixture.frame, {}, settings);
+    if (threshold == 0) {
+      EXPECT_EQ(trees.forest.tree_cells(), 0u);
+      cells = trees.forest.list_cells();
+    }
+    EXPECT_GE(trees.forest.tree_cells(), trees_before);
+    EXPECT_EQ(trees.forest.tree_cells() + trees.forest.list_cells(), cells);
+    trees_before = trees.forest.tree_cells();
+  }
+  EXPECT_GT(trees_before, 0u);
+}
+
+TEST(Forest, DoNotDependOnTheNumberOfThreads) {
+  for (uint32_t count : {0u, 1u, 2047u, 65537u}) {
+    Random random(count);
+    Camera camera = random_camera(random);
+    std::vector<Light> lights = random_lights(random, count, camera);
+    for (Light& light : lights) light.radius *= 0.05f;
+    std::vector<std::vector<std::byte>> results;
+    for (unsigned threads : {1u, 2u, 7u}) {
+      BinningFrame fixture(lights, camera, 640, 360, threads);
+      TreePrepare prepare("test", {}, {});
+      PlainMemory memory;
+      Spans spans;
+      prepare.prepare(fixture.frame, memory, spans);
+      prepare.prepare(fixture.frame, memory, spans);
+      results.push_back(memory.all());
+    }
+    EXPECT_TRUE(results[0] == results[1] && results[0] == results[2]) << count;
+  }
+}
+
+TEST(Forest, AFrameWithFewerLightsLeavesNothingBehind) {
+  Random random(5);
+  Camera camera = random_camera(random);
+  std::vector<Light> many = random_lights(random, 5000, camera), few(many.begin(), many.begin() + 10);
+  BinningFrame large(many, camera, 640, 360), small(few, camera, 64, 64);
+  TreePrepare reused("test", {}, {}), fresh("test", {}, {});
+  PlainMemory reused_memory, fresh_memory;
+  Spans spans;
+  reused.prepare(large.frame, reused_memory, spans);
+  reused.prepare(small.frame, reused_memory, spans);
+  fresh.prepare(small.frame, fresh_memory, spans);
+  EXPECT_TRUE(reused_memory.all() == fresh_memory.all());
+}
+
+}  // namespace
+}  // namespace ml

@@ -1,0 +1,33 @@
+// Upload memory on the heap, for tests of prepare() without a device.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "algorithms/algorithm.h"
+
+namespace ml::test {
+
+class PlainMemory final : public UploadMemory {
+ public:
+  std::span<std::byte> map(uint32_t slot, size_t bytes) override {
+    if (slots_[slot].size() < bytes) slots_[slot].resize(bytes);
+    used_[slot] = bytes;
+    return std::span(slots_[slot]).first(bytes);
+  }
+  size_t limit() const override { return size_t{1} << 30; }
+
+  // What the last prepare() wrote, slot by slot.
+  std::vector<std::byte> all() const {
+    std::vector<std::byte> bytes;
+    for (size_t slot = 0; slot < slots_.size(); ++slot)
+      bytes.insert(bytes.end(), slots_[slot].begin(), slots_[slot].begin() + static_cast<ptrdiff_t>(used_[slot]));
+    return bytes;
+  }
+
+ private:
+  std::array<std::vector<std::byte>, 8> slots_;
+  std::array<size_t, 8> used_{};
+};
+
+}  // namespace ml::test
