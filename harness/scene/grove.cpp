@@ -46,7 +46,7 @@ HeightField make_grove_ground(uint32_t seed) {
 void build_ground(MeshBuilder& mesh, const GroveMaterials& materials, const HeightField& ground,
                   const GroveWay& way) {
   ground.build(mesh, [&](double x, double z, double) {
-    return way.distance({x, z}) < 3 ? materials.earth : materials.grass;
+    return way.distance({x, z}) < 3.6 ? materials.earth : materials.grass;
   });
 }
 

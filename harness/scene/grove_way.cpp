@@ -42,7 +42,7 @@ GroveWay::Place GroveWay::at(double length) const {
 
 double GroveWay::distance(const glm::dvec2& point) const {
   double least = length_of(point - steps_.front().point);
-  for (size_t i = 0; i < steps_.size(); i += 8) least = std::min(least, length_of(point - steps_[i].point));
+  for (size_t i = 0; i < steps_.size(); i += 4) least = std::min(least, length_of(point - steps_[i].point));
   return least;
 }
 
