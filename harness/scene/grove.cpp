@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "harness/scene/grove_parts.h"
 #include "harness/scene/noise.h"
 #include "harness/scene/procedural.h"
