@@ -49,6 +49,16 @@ std::string setting(const std::string& name, const json& value) {
   return name + (value.is_number() ? text : file_letters(text));
 }
 
+// Has every setup what its scene brings anyway?
+template <typename Value>
+bool all_own(const std::vector<Setup>& setups, Value LightSpec::*member) {
+  return std::all_of(setups.begin(), setups.end(), [&](const Setup& setup) {
+    LightSpec own = setup.lights;
+    own.*member = LightSpec().*member;
+    return completed(own, light_defaults(setup.scene)).*member == setup.lights.*member;
+  });
+}
+
 // Keys that differ between setups and that the id does not show anyway.
 std::vector<const Key*> varying_keys(const std::vector<Setup>& setups) {
   std::vector<const Key*> varying;
@@ -58,6 +68,8 @@ std::vector<const Key*> varying_keys(const std::vector<Setup>& setups) {
     static const std::set<std::string> shown{"resolution", "algorithms", "scene.name", "scene.gltf",
                                              "lights.count"};
     if (!key.sweepable || key.section || shown.contains(key.path)) continue;
+    if (key.path == "lights.placement" && all_own(setups, &LightSpec::placement)) continue;
+    if (key.path == "lights.radius_ratio" && all_own(setups, &LightSpec::radius_ratio)) continue;
     drafts[0].setup = setups[0];
     json first = key.write(drafts[0]);
     for (size_t i = 1; i < setups.size(); ++i) {

@@ -111,6 +111,19 @@ void check_setup(const Setup& setup, const OutputSpec& outputs, const Source& so
   }
 }
 
+// Names the scene's own placement and radius ratio where nothing else is said. The draft, which is written as
+// the resolved configuration, leaves them out when they depend on which scene of a sweep it is.
+void complete_lights(Draft& draft, std::vector<Setup>& setups) {
+  const LightDefaults first = light_defaults(setups.front().scene);
+  bool alike = true;
+  for (Setup& setup : setups) {
+    LightDefaults defaults = light_defaults(setup.scene);
+    setup.lights = completed(setup.lights, defaults);
+    alike = alike && defaults == first;
+  }
+  if (alike) draft.setup.lights = completed(draft.setup.lights, first);
+}
+
 Config build_config(const json& document, const std::string& source_name,
                     const std::filesystem::path& relative_to, const std::vector<std::string>& overrides) {
   Source source{source_name, relative_to};
@@ -133,6 +146,7 @@ Config build_config(const json& document, const std::string& source_name,
     check_setup(setup, draft.outputs, source, point);
     config.setups.push_back(setup);
   });
+  complete_lights(draft, config.setups);
   config.resolved = json::object();
   for (const Key& key : config_keys()) {
     if (key.path.find('.') == key.path.npos) config.resolved[key.path] = key.write(draft);

@@ -66,8 +66,10 @@ struct Config {
   MeasureSpec measure;
   OutputSpec outputs;
   std::vector<Setup> setups;  // sweep and zip expanded, at least one
-  nlohmann::json resolved;    // the configuration with every default filled in and sweeps kept; reading it
-                              // again gives the same Config
+  // The configuration with every default filled in and sweeps kept; reading it again gives the same Config.
+  // Only `lights.placement` and `lights.radius_ratio` are left out where none is given and the swept scenes
+  // have different ones; the setups name them.
+  nlohmann::json resolved;
 };
 
 // Reads a file, or a configuration by its name in the installed configs/ folder (`quick`,

@@ -158,7 +158,7 @@ std::span<const Field<LightSpec>> light_fields() {
   using L = LightSpec;
   static constexpr auto fields = std::to_array<Field<L>>({
       {"placement", [](const Node& n, L& l) { l.placement = read_enum<Placement>(n, placement_names()); },
-       [](const L& l) { return write_enum(l.placement, placement_names()); }},
+       [](const L& l) { return l.placement ? write_enum(*l.placement, placement_names()) : json(); }},
       {"count", [](const Node& n, L& l) { l.count = n.unsigned_integer(0, 1048576); },
        [](const L& l) { return json(l.count); }},
       {"sizing", [](const Node& n, L& l) { l.sizing = read_enum<Sizing>(n, sizing_names()); },
@@ -166,7 +166,7 @@ std::span<const Field<LightSpec>> light_fields() {
       {"base_size", [](const Node& n, L& l) { l.base_size = read_length(n); },
        [](const L& l) { return json(shortest_double(l.base_size)); }},
       {"radius_ratio", [](const Node& n, L& l) { l.radius_ratio = static_cast<float>(n.real(1, 1000)); },
-       [](const L& l) { return json(shortest_double(l.radius_ratio)); }},
+       [](const L& l) { return l.radius_ratio > 0 ? json(shortest_double(l.radius_ratio)) : json(); }},
       {"radius", [](const Node& n, L& l) { l.radius = read_length(n); },
        [](const L& l) { return json(shortest_double(l.radius)); }},
       {"height", [](const Node& n, L& l) { l.height = read_length(n); },

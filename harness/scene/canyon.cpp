@@ -83,6 +83,7 @@ Scene make_canyon(uint32_t seed) {
 
   Scene scene = mesh.finish();
   scene.name = "canyon";
+  scene.light_defaults = kCanyonLights;
   scene.near = 0.1f;
   scene.far = 220;
   scene.paths = {path};

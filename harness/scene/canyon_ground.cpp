@@ -3,43 +3,11 @@
 
 #include "harness/base/random.h"
 #include "harness/scene/canyon_parts.h"
+#include "harness/scene/noise.h"
 #include "harness/scene/turn.h"
 
 namespace ml {
 namespace {
-
-double smooth(double low, double high, double value) {
-  double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-// Smooth noise in [-1, 1] with features of about 1.
-double noise(uint32_t seed, double x, double z) {
-  double fx = std::floor(x), fz = std::floor(z);
-  auto ix = static_cast<int32_t>(fx), iz = static_cast<int32_t>(fz);
-  double u = x - fx, v = z - fz;
-  u = u * u * u * (u * (u * 6 - 15) + 10);
-  v = v * v * v * (v * (v * 6 - 15) + 10);
-  auto corner = [&](int32_t dx, int32_t dz) {
-    return static_cast<double>(
-        unit_float(hash_u32(seed, static_cast<uint32_t>(ix + dx), static_cast<uint32_t>(iz + dz))));
-  };
-  double near = corner(0, 0) + u * (corner(1, 0) - corner(0, 0));
-  double far = corner(0, 1) + u * (corner(1, 1) - corner(0, 1));
-  return 2 * (near + v * (far - near)) - 1;
-}
-
-// Four octaves, in about [-1, 1].
-double rough(uint32_t seed, double x, double z) {
-  double sum = 0, size = 0.55;
-  for (uint32_t octave = 0; octave < 4; ++octave) {
-    sum += size * noise(seed + octave * 101, x, z);
-    x = 2.03 * x + 17.1;
-    z = 2.03 * z - 9.7;
-    size *= 0.5;
-  }
-  return sum;
-}
 
 // How far (x, z) lies outside the valley floor, m; negative on it.
 double outside(double x, double z) {
@@ -50,17 +18,17 @@ double outside(double x, double z) {
 }
 
 double raw_height(uint32_t seed, double x, double z) {
-  double beyond = outside(x, z) + 2.2 * rough(seed + 1, x / 9, z / 9) * smooth(-4, 4, outside(x, z));
+  double beyond = outside(x, z) + 2.2 * rough(seed + 1, x / 9, z / 9) * smooth_step(-4, 4, outside(x, z));
   // Two steps with a ledge between, as weathered layers have.
-  double wall = 15 * smooth(0, 5.5, beyond) + 11 * smooth(6.5, 12.5, beyond);
-  double ground = 0.35 * rough(seed + 2, x / 12, z / 12) + 0.25 * smooth(-9, 0, beyond);
+  double wall = 15 * smooth_step(0, 5.5, beyond) + 11 * smooth_step(6.5, 12.5, beyond);
+  double ground = 0.35 * rough(seed + 2, x / 12, z / 12) + 0.25 * smooth_step(-9, 0, beyond);
   double bed = z - canyon_center(x) - 7 * sine_of_turns(x / 85 + 0.1);
-  ground -= 1.7 * smooth(3.2, 0, std::abs(bed)) * smooth(-3, -7, outside(x, z));
-  double roughness = 1.3 * rough(seed + 3, x / 5, z / 5) * smooth(1, 9, beyond);
-  double peaks = 12 * smooth(9, 34, beyond) * (0.55 + 0.6 * rough(seed + 4, x / 22, z / 22));
+  ground -= 1.7 * smooth_step(3.2, 0, std::abs(bed)) * smooth_step(-3, -7, outside(x, z));
+  double roughness = 1.3 * rough(seed + 3, x / 5, z / 5) * smooth_step(1, 9, beyond);
+  double peaks = 12 * smooth_step(9, 34, beyond) * (0.55 + 0.6 * rough(seed + 4, x / 22, z / 22));
   // The ends of the valley are shut by the highest mountains, far enough away to be the long views'
   // background.
-  double ends = 12 * smooth(82, 93, std::abs(x)) * (0.75 + 0.3 * rough(seed + 5, x / 9, z / 9));
+  double ends = 12 * smooth_step(82, 93, std::abs(x)) * (0.75 + 0.3 * rough(seed + 5, x / 9, z / 9));
   return ground + wall + roughness + peaks + ends;
 }
 
@@ -68,7 +36,7 @@ double raw_height(uint32_t seed, double x, double z) {
 double levelled(const std::vector<Footprint>& footprints, double x, double z, double height) {
   for (const Footprint& f : footprints) {
     double dx = std::max({f.min.x - x, x - f.max.x, 0.0}), dz = std::max({f.min.y - z, z - f.max.y, 0.0});
-    double share = smooth(1.3, 3.9, std::sqrt(dx * dx + dz * dz));
+    double share = smooth_step(1.3, 3.9, std::sqrt(dx * dx + dz * dz));
     height = f.height + (height - f.height) * share;
   }
   return height;
@@ -77,7 +45,7 @@ double levelled(const std::vector<Footprint>& footprints, double x, double z, do
 }  // namespace
 
 double canyon_center(double x) {
-  double bend = 12 * smooth(40, 88, std::abs(x));
+  double bend = 12 * smooth_step(40, 88, std::abs(x));
   return x < 0 ? -bend : bend;
 }
 

@@ -31,7 +31,8 @@ constexpr uint8_t kFaces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 1
 void build_rock(MeshBuilder& mesh, Random& random, const glm::dvec3& place, double radius,
                 uint32_t material) {
   double turns = random.uniform(), c = cosine_of_turns(turns), s = sine_of_turns(turns);
-  glm::dvec3 stretch(random.uniform(0.8f, 1.3f), random.uniform(0.6f, 0.95f), random.uniform(0.8f, 1.2f));
+  // In braces: from left to right with every compiler.
+  glm::dvec3 stretch{random.uniform(0.8f, 1.3f), random.uniform(0.6f, 0.95f), random.uniform(0.8f, 1.2f)};
   std::array<glm::dvec3, 12> corners;
   for (size_t i = 0; i < corners.size(); ++i) {
     double size =

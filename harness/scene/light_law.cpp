@@ -44,7 +44,11 @@ double surface_area(const Scene& scene) {
 }
 
 double default_base_size(const Scene& scene, Placement placement, double ratio) {
-  if (scene.name == "canyon" && placement == Placement::volume) return 0.6;
+  const LightDefaults& defaults = scene.light_defaults;
+  double own = placement == Placement::volume     ? defaults.volume_size
+               : placement == Placement::triangle ? defaults.triangle_size
+                                                  : defaults.area_size;
+  if (own > 0) return own;
   RadiusMoments moments = radius_moments(ratio);
   glm::dvec3 size(scene.bounds.size());
   double volume = size.x * size.y * size.z;

@@ -22,6 +22,7 @@ constexpr double kDegree = 3.141592653589793 / 180;
 // The closed-form scene has its own lights: equal, at one height, uniform over its area whatever the
 // placement.
 LightSpec adapted(LightSpec spec, const Scene& scene) {
+  spec = completed(spec, scene.light_defaults);
   if (scene.name != "plane" || spec.placement == Placement::gltf) return spec;
   spec.placement = Placement::area;
   if (spec.radius == 0 && spec.base_size == 0) spec.radius = 4;
@@ -72,6 +73,12 @@ const std::vector<std::string>& sizing_names() {
 const std::vector<std::string>& light_script_names() {
   static const std::vector<std::string> names{"static", "drift", "spawn"};
   return names;
+}
+
+LightSpec completed(LightSpec spec, const LightDefaults& defaults) {
+  if (!spec.placement) spec.placement = defaults.placement;
+  if (spec.radius_ratio == 0) spec.radius_ratio = defaults.radius_ratio;
+  return spec;
 }
 
 const char* rejection_reason(const Light& light) {
@@ -129,10 +136,10 @@ LightSet::LightSet(const LightSpec& spec, const Scene& scene) : spec_(adapted(sp
 
   double s0 = spec_.base_size > 0
                   ? spec_.base_size
-                  : default_base_size(scene, spec_.placement, static_cast<double>(spec_.radius_ratio));
+                  : default_base_size(scene, *spec_.placement, static_cast<double>(spec_.radius_ratio));
   size_ = spec_.radius > 0
               ? spec_.radius
-              : static_cast<float>(size_for_count(s0, spec_.count, spec_.sizing, spec_.placement));
+              : static_cast<float>(size_for_count(s0, spec_.count, spec_.sizing, *spec_.placement));
   if (spec_.count == 0) return;
   std::optional<SurfaceSampler> surface;
   if (spec_.placement != Placement::volume) surface.emplace(scene, spec_.placement == Placement::area);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,6 @@
 
 namespace ml {
 
-// Uniform in the scene's box | over triangles | over surface area | the file's own.
-enum class Placement { volume, triangle, area, gltf };
 // s(N) shrinks so that overdraw stays | the same s at every N.
 enum class Sizing { const_overdraw, fixed_size };
 // The configuration's name of `none` is "static".
@@ -25,14 +24,14 @@ const std::vector<std::string>& sizing_names();
 const std::vector<std::string>& light_script_names();
 
 struct LightSpec {
-  Placement placement = Placement::volume;
-  uint32_t count = 8192;  // [0, 1048576]
+  std::optional<Placement> placement;  // none: the scene's own (Scene::light_defaults)
+  uint32_t count = 8192;               // [0, 1048576]
   Sizing sizing = Sizing::const_overdraw;
   // m, s0 of the radius law at 65,536 lights. 0: the scene's own (scenes.md), or for a glTF level the size
   // that gives about 3 lights per visible point by the overdraw formula of the placement.
   float base_size = 0;
-  float radius_ratio = 32;  // largest radius / smallest, [1, 1000]
-  float radius = 0;         // m, > 0: every light has this radius, and the law is not used
+  float radius_ratio = 0;  // largest radius / smallest, [1, 1000]; 0: the scene's own
+  float radius = 0;        // m, > 0: every light has this radius, and the law is not used
   // m, placements `triangle` and `area`: > 0 puts every light exactly this far along the surface normal.
   float height = 0;
   float spot_fraction = 0;  // [0, 1]: this part of the lights (by hash) are spots
@@ -40,6 +39,9 @@ struct LightSpec {
   uint32_t seed = 1;
   LightScript script = LightScript::none;
 };
+
+// `spec` with the placement and the radius ratio of the scene where it names none.
+LightSpec completed(LightSpec spec, const LightDefaults& defaults);
 
 // How many lights were refused and why ("radius is 0", "radius is negative", "radius is not finite", ...);
 // each is counted once, by the first reason that holds.

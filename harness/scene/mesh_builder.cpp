@@ -51,7 +51,10 @@ void MeshBuilder::triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::
   glm::dvec3 qa = quantised(a), qb = quantised(b), qc = quantised(c);
   glm::dvec3 normal = glm::cross(qb - qa, qc - qa);
   if (glm::dot(normal, normal) == 0) return;
-  smooth_triangle(vertex(qa, normal), vertex(qb, normal), vertex(qc, normal), material);
+  // In statements: the order in which arguments are evaluated is the compiler's, and it would number
+  // vertices.
+  uint32_t ia = vertex(qa, normal), ib = vertex(qb, normal), ic = vertex(qc, normal);
+  smooth_triangle(ia, ib, ic, material);
 }
 
 void MeshBuilder::quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d,
@@ -62,15 +65,18 @@ void MeshBuilder::quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
 
 void MeshBuilder::box(const glm::dvec3& lo, const glm::dvec3& hi, uint32_t material, unsigned faces) {
   assert(lo.x < hi.x && lo.y < hi.y && lo.z < hi.z);
-  auto corner = [&](int x, int y, int z) {
-    return glm::dvec3(x ? hi.x : lo.x, y ? hi.y : lo.y, z ? hi.z : lo.z);
-  };
-  if (faces & west) quad(corner(0, 0, 0), corner(0, 0, 1), corner(0, 1, 1), corner(0, 1, 0), material);
-  if (faces & east) quad(corner(1, 0, 1), corner(1, 0, 0), corner(1, 1, 0), corner(1, 1, 1), material);
-  if (faces & bottom) quad(corner(0, 0, 0), corner(1, 0, 0), corner(1, 0, 1), corner(0, 0, 1), material);
-  if (faces & top) quad(corner(0, 1, 1), corner(1, 1, 1), corner(1, 1, 0), corner(0, 1, 0), material);
-  if (faces & north) quad(corner(1, 0, 0), corner(0, 0, 0), corner(0, 1, 0), corner(1, 1, 0), material);
-  if (faces & south) quad(corner(0, 0, 1), corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1), material);
+  std::array<glm::dvec3, 8> corners;
+  for (size_t i = 0; i < 8; ++i) corners[i] = {i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z};
+  block(corners, material, faces);
+}
+
+void MeshBuilder::block(const std::array<glm::dvec3, 8>& c, uint32_t material, unsigned faces) {
+  if (faces & west) quad(c[0], c[4], c[6], c[2], material);
+  if (faces & east) quad(c[5], c[1], c[3], c[7], material);
+  if (faces & bottom) quad(c[0], c[1], c[5], c[4], material);
+  if (faces & top) quad(c[6], c[7], c[3], c[2], material);
+  if (faces & north) quad(c[1], c[0], c[2], c[3], material);
+  if (faces & south) quad(c[4], c[5], c[7], c[6], material);
 }
 
 void MeshBuilder::prism(const glm::dvec3& foot, double height, double foot_radius, double top_radius,
@@ -85,6 +91,15 @@ void MeshBuilder::prism(const glm::dvec3& foot, double height, double foot_radiu
     triangle(foot + glm::dvec3(0, height, 0), rim(i, top_radius, height), rim(i + 1, top_radius, height),
              material);
   }
+}
+
+void MeshBuilder::cone(const glm::dvec3& foot, double height, double radius, int sides, uint32_t material) {
+  prism(foot, height, radius, 0, sides, material);
+  auto rim = [&](int i) {
+    double turns = (i + 0.5) / sides;
+    return foot + glm::dvec3(radius * cosine_of_turns(turns), 0, -radius * sine_of_turns(turns));
+  };
+  for (int i = 1; i + 1 < sides; ++i) triangle(rim(0), rim(i + 1), rim(i), material);
 }
 
 Scene MeshBuilder::finish() {

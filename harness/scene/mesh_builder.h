@@ -31,9 +31,14 @@ class MeshBuilder {
             uint32_t material);
   // Axis-aligned; `faces` says which sides are made (west is -x, north is -z).
   void box(const glm::dvec3& min, const glm::dvec3& max, uint32_t material, unsigned faces = all);
+  // A box bent to eight corners; corner i is at the upper end of x, y, z where bit 0, 1, 2 of i is set.
+  void block(const std::array<glm::dvec3, 8>& corners, uint32_t material, unsigned faces = all);
   // An upright prism of `sides` sides with its top; radii may differ.
   void prism(const glm::dvec3& foot, double height, double foot_radius, double top_radius, int sides,
              uint32_t material);
+
+  // An upright cone with its under side.
+  void cone(const glm::dvec3& foot, double height, double radius, int sides, uint32_t material);
 
   // For smooth surfaces: a vertex of its own normal (made unit length), and triangles over such vertices.
   uint32_t vertex(const glm::dvec3& position, const glm::dvec3& normal);

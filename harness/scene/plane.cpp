@@ -14,6 +14,7 @@ Scene make_plane() {
 
   Scene scene = mesh.finish();
   scene.name = "plane";
+  scene.light_defaults = kPlaneLights;
   scene.near = 0.1f;
   scene.far = 200;
   CameraPath glide;

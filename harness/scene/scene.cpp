@@ -24,8 +24,24 @@ const CameraPath& Scene::path(const std::string& path_name) const {
 std::vector<SceneInfo> procedural_scenes() {
   return {
       {"canyon",
-       "A valley with two forts, two tunnels, a bridge and rocks: 190 x 150 x 40 m, long and short views."},
-      {"plane", "Two triangles, 100 x 100 m: the number of lights per pixel has a closed form."}};
+       "A valley with two forts, two tunnels, a bridge and rocks: 190 x 150 x 40 m, long and short views.",
+       kCanyonLights},
+      {"citadel",
+       "A walled hill town with a keep, farms and woods: 760 x 760 x 100 m, streets and very long views.",
+       kCitadelLights},
+      {"grove",
+       "A path between picket fences in a wood: 300 x 300 m, thin things before far ones in every tile.",
+       kGroveLights},
+      {"plane", "Two triangles, 100 x 100 m: the number of lights per pixel has a closed form.",
+       kPlaneLights}};
+}
+
+LightDefaults light_defaults(const SceneSpec& spec) {
+  if (!spec.gltf.empty()) return {};
+  for (const SceneInfo& info : procedural_scenes()) {
+    if (info.name == spec.procedural) return info.lights;
+  }
+  return {};
 }
 
 Scene load_scene(const SceneSpec& spec) {
@@ -43,6 +59,10 @@ Scene load_scene(const SceneSpec& spec) {
     scene = import_gltf(spec.gltf, spec.gltf_scene, spec.seed, spec.offset);
   } else if (spec.procedural == "canyon") {
     scene = make_canyon(spec.seed);
+  } else if (spec.procedural == "citadel") {
+    scene = make_citadel(spec.seed);
+  } else if (spec.procedural == "grove") {
+    scene = make_grove(spec.seed);
   } else if (spec.procedural == "plane") {
     scene = make_plane();
   } else {

@@ -14,6 +14,7 @@
 
 #include "harness/scene/camera.h"
 #include "harness/scene/light.h"
+#include "harness/scene/light_defaults.h"
 
 namespace ml {
 
@@ -68,6 +69,7 @@ struct Scene {
   std::vector<Draw> draws;
   std::vector<Material> materials;  // at least one
   std::vector<Texture> textures;
+  LightDefaults light_defaults;
   std::vector<Light> lights;      // the file's own (KHR_lights_punctual), for placement `gltf`
   std::vector<CameraPath> paths;  // the first is `default`
   Bounds bounds;                  // of the vertices
@@ -85,6 +87,7 @@ struct Scene {
 struct SceneInfo {
   std::string name;
   std::string summary;  // one line
+  LightDefaults lights;
 };
 std::vector<SceneInfo> procedural_scenes();
 
@@ -99,6 +102,9 @@ struct SceneSpec {
   bool two_sided =
       false;  // every material is drawn from both sides: for levels whose winding is not reliable
 };
+
+// The light defaults of the scene that load_scene(spec) gives, without making it.
+LightDefaults light_defaults(const SceneSpec& spec);
 
 // Throws UsageError (unknown name, bad file) with one line that names the file and the place in it.
 Scene load_scene(const SceneSpec& spec);

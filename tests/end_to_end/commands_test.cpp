@@ -74,6 +74,16 @@ TEST(Commands, VerifyProvesTheSmokeConfiguration) {
   EXPECT_EQ(outcome.out.find("FAILED"), std::string::npos);
 }
 
+// The scenes with long views, streets, fences and leaves, small: no algorithm loses a light in them.
+TEST(Commands, VerifyProvesTheTownAndTheGrove) {
+  for (const char* name : {"citadel", "grove"}) {
+    Outcome outcome =
+        manylights({"verify", name, "--set", "resolution=[160,90]", "--set", "camera.frames=3", "--set",
+                    "lights.count=1024", "--set", "outputs.images=[]", "--set", "outputs.heatmaps=[]"});
+    EXPECT_EQ(outcome.code, 0) << name << ": " << outcome.out << outcome.error;
+  }
+}
+
 TEST(Commands, DoctorDescribesTheDevice) {
   Outcome outcome = manylights({"doctor"});
   EXPECT_TRUE(outcome.code == 0 || outcome.code == 1) << outcome.error;  // 1: the clock of a busy machine

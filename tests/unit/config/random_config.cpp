@@ -76,9 +76,9 @@ json keyframes() {
 }
 
 json scene() {
-  if (now()) return one_of({"canyon", "plane"});
+  if (now()) return one_of({"canyon", "citadel", "grove", "plane"});
   json object =
-      now() ? json{{"name", one_of({"canyon", "plane"})}}
+      now() ? json{{"name", one_of({"canyon", "citadel", "grove", "plane"})}}
             : json{{"gltf", one_of({"level.glb", "../a b/Ünï.gltf", "/abs/./x.glb", "no-extension"})}};
   if (object.contains("gltf") && now()) object["scene"] = integer(-1, 5);
   if (now()) object["seed"] = seed();

@@ -222,6 +222,42 @@ TEST(ConfigReading, NamesComeFromTheFile) {
   EXPECT_EQ(parse_config(json::object(), "...", "").name, "config");
 }
 
+TEST(ConfigReading, TheSceneBringsThePlacementThatIsNotNamed) {
+  auto placement = [](const Config& config) { return config.resolved["lights"]["placement"]; };
+  EXPECT_EQ(placement(parse("{}")), "volume");
+  EXPECT_EQ(placement(parse(R"({"scene": "citadel"})")), "triangle");
+  EXPECT_EQ(placement(parse("{}", {"scene=plane"})), "area");
+  EXPECT_EQ(placement(parse(R"({"scene": {"gltf": "level.glb"}})")), "volume");
+  Config grove = parse(R"({"scene": "grove"})");
+  EXPECT_EQ(placement(grove), "area");
+  EXPECT_EQ(grove.resolved["lights"]["radius_ratio"], 24);
+  EXPECT_EQ(grove.setups[0].lights.placement, Placement::area);
+  EXPECT_EQ(grove.setups[0].lights.radius_ratio, 24);
+  Config named = parse(R"({"scene": "grove", "lights": {"placement": "volume", "radius_ratio": 2}})");
+  EXPECT_EQ(placement(named), "volume");
+  EXPECT_EQ(named.setups[0].lights.placement, Placement::volume);
+  EXPECT_EQ(named.setups[0].lights.radius_ratio, 2);
+}
+
+TEST(ConfigReading, SweptScenesBringTheirOwnPlacements) {
+  Config config = parse(R"({"sweep": {"scene": ["canyon", "citadel", "grove"]}})");
+  ASSERT_EQ(config.setups.size(), 3u);
+  EXPECT_EQ(config.setups[0].lights.placement, Placement::volume);
+  EXPECT_EQ(config.setups[1].lights.placement, Placement::triangle);
+  EXPECT_EQ(config.setups[2].lights.placement, Placement::area);
+  EXPECT_EQ(config.setups[2].lights.radius_ratio, 24);
+  // No single value would be true.
+  EXPECT_FALSE(config.resolved["lights"].contains("placement"));
+  EXPECT_EQ(expand_cases(config)[1].id.find("placement"), std::string::npos);
+
+  config = parse(R"({"lights": {"placement": "area"}, "sweep": {"scene": ["canyon", "citadel"]}})");
+  EXPECT_EQ(config.setups[1].lights.placement, Placement::area);
+  EXPECT_EQ(config.resolved["lights"]["placement"], "area");
+  config = parse(R"({"scene": "citadel", "sweep": {"lights.placement": ["triangle", "area"]}})");
+  EXPECT_EQ(config.resolved["lights"]["placement"], "triangle");
+  EXPECT_NE(expand_cases(config)[0].id.find("placement-triangle"), std::string::npos);
+}
+
 TEST(ConfigOverrides, SetAnyKey) {
   Config config =
       parse(R"({"algorithms": ["clustered", "ideal", {"name": "clustered", "slices": 4}]})",

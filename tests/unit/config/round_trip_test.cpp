@@ -22,6 +22,8 @@ void expect_same(const Config& a, const Config& b) {
     RC_ASSERT(x.scene.gltf == y.scene.gltf);
     RC_ASSERT(x.scene.gltf_scene == y.scene.gltf_scene);
     RC_ASSERT(x.scene.offset == y.scene.offset);
+    RC_ASSERT(x.lights.placement.has_value());
+    RC_ASSERT(x.lights.placement == y.lights.placement);
     RC_ASSERT(x.lights.count == y.lights.count);
     RC_ASSERT(x.lights.seed == y.lights.seed);
     RC_ASSERT(x.lights.radius == y.lights.radius);

@@ -65,7 +65,7 @@ TEST(LightLaw, OverdrawStaysOrGrowsWithTheCount) {
 
 TEST(LightLaw, TheCanyonHasItsOwnSizeAndOtherLevelsAboutThreeLightsPerPoint) {
   Scene canyon;
-  canyon.name = "canyon";
+  canyon.light_defaults = kCanyonLights;
   EXPECT_EQ(default_base_size(canyon, Placement::volume, 32), 0.6);
   double s = default_base_size(level(), Placement::volume, 32);
   EXPECT_NEAR(0.7 * 65536 * (4 * 3.14159265 / 3) * radius_moments(32).cube * s * s * s / (40 * 20 * 10), 3,
