@@ -74,7 +74,7 @@ AlgorithmEntry clustered_entry() {
   entry.info.paper = "Persson, Practical Clustered Shading, SIGGRAPH 2013";
   entry.info.cpu_stages = {"cull", "bin", "upload"};
   entry.info.gpu_stages = {"shade"};
-  entry.info.shapes = {"omni", "spot"};
+  entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
   entry.parameters = {
       ParameterInfo::integer("tile", 24, 4, 1024, "side of a screen tile in pixels"),
       ParameterInfo::integer("slices", 16, 1, 256, "depth slices: one near slice and the rest exponential"),

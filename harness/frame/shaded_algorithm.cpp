@@ -10,8 +10,8 @@ namespace {
 // Ids shared by every shading program (shaders/light_eval.glsl, shaders/shade.comp); an algorithm's own begin
 // at 16.
 std::vector<gpu::Constant> constants_of(const Effects& effects, const Algorithm& algorithm, bool block_list) {
-  std::vector<gpu::Constant> constants{
-      {0, effects.spots}, {1, effects.specular}, {2, block_list}, {3, effects.long_lists}};
+  std::vector<gpu::Constant> constants = effects.constants();
+  constants.push_back({2, block_list});
   uint32_t id = 16;
   for (uint32_t value : algorithm.shade_constants()) constants.push_back({id++, value});
   return constants;

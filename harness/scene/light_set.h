@@ -35,8 +35,9 @@ struct LightSpec {
   float radius = 0;         // m, > 0: every light has this radius, and the law is not used
   // m, placements `triangle` and `area`: > 0 puts every light exactly this far along the surface normal.
   float height = 0;
-  float spot_fraction = 0;  // [0, 1]: this part of the lights (by hash) are spots
-  float intensity = 1;      // factor on all intensities, > 0
+  // [0, 1] each, [0, 1] together: this part of the lights (by hash) have the shape; the rest are omni.
+  float spot_fraction = 0, capsule_fraction = 0, wedge_fraction = 0, box_fraction = 0;
+  float intensity = 1;  // factor on all intensities, > 0
   uint32_t seed = 1;
   LightScript script = LightScript::none;
 };
