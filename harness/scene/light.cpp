@@ -16,11 +16,13 @@ void make_box(Light& light, const glm::vec3& half_extents) {
 }
 
 void scale_size(Light& light, double factor) {
-  auto scale = [factor](float& size) { size = static_cast<float>(double{size} * factor); };
-  scale(light.radius);
-  if (has_segment(light.shape)) scale(light.half_length);
-  if (light.shape == LightShape::box)
-    for (int axis = 0; axis < 3; ++axis) scale(light.half_extents[axis]);
+  auto scaled = [factor](float size) { return static_cast<float>(double{size} * factor); };
+  light.radius = scaled(light.radius);
+  if (has_segment(light.shape)) light.half_length = scaled(light.half_length);
+  if (light.shape == LightShape::box) {
+    const glm::vec3& half = light.half_extents;
+    make_box(light, {scaled(half.x), scaled(half.y), scaled(half.z)});
+  }
 }
 
 }  // namespace ml
