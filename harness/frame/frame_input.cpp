@@ -46,6 +46,7 @@ gpu_data::LightExtra extra_of(const Light& light) {
   extra.bound_radius = bounding_radius(light);
   if (has_cone(light.shape)) set_cone(light, extra);
   if (has_segment(light.shape)) extra.half_length = light.half_length;
+  if (light.shape == LightShape::omni || light.shape == LightShape::spot) return extra;
   // Accepted axes are unit and at right angles to about 1e-3: here to the last bit but one. The directions of
   // spots and wedges stay as they are.
   glm::dvec3 side = glm::normalize(glm::dvec3(light.side)), front(light.direction);
