@@ -46,11 +46,14 @@ struct AlgorithmInfo {
 // Structure of arrays, so that bounds can be computed many at a time; all spans have the same length and 64
 // readable bytes of padding behind their last element.
 struct FrameLights {
-  std::span<const float> x, y, z;             // m
-  std::span<const float> radius;              // m, > 0
+  std::span<const float> x, y, z;  // m
+  // m, > 0: of the ball around (x, y, z) that holds the light's whole volume, so that an algorithm that knows
+  // balls alone loses nothing. The window's radius is core's; for omni lights and spots they are the same.
+  std::span<const float> radius;
   std::span<const gpu_data::LightCore> core;  // the same lights as the GPU has them
-  std::span<const gpu_data::LightExtra>
-      extra;  // spots: axis and cone; same length as core, or empty when no light needs it
+  // What shapes other than omni need (axes, cone, length, extents; bound_radius is `radius` above); same
+  // length as core, or empty when all lights are omni. Fields: shaders/shared/light.h.
+  std::span<const gpu_data::LightExtra> extra;
   size_t count() const { return x.size(); }
 };
 

@@ -5,8 +5,9 @@
     scripts/check_frame.py frame frame.csv
 
 Reads STEM.position.exr, STEM.normal.exr, STEM.depth.exr and STEM.contributing.exr, counts in double precision the lights that
-contribute to every pixel, and compares. A light contributes when the point is nearer than its radius, faces it (N.L > 0) and lies in
-its cone. A count may differ by the lights within 1e-5 of one of these edges, where single precision may decide otherwise.
+contribute to every pixel, and compares. A light contributes when the point is nearer to its source (a point, or a segment) than its
+radius, or for a box within its faces, faces it (N.L > 0) and lies in its cone. A count may differ by the lights within 1e-5 of one of
+these edges, where single precision may decide otherwise.
 STEM.albedo.exr and STEM.listed.exr are checked for plausibility where they are there.
 
 Exit code 0: agreement; 1: disagreement; 2: a file is missing or not what was expected. Needs nothing but Python.
@@ -108,21 +109,59 @@ def parse_exr(data):
     return width, height, pictures
 
 
+COLUMNS = 22
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
 class Light:
-    __slots__ = ("x", "y", "z", "radius", "spot", "direction", "scale", "offset", "cos_outer")
+    __slots__ = ("x", "y", "z", "radius", "spot", "direction", "scale", "offset", "cos_outer", "side", "half_length", "box", "reach")
 
     def __init__(self, row):
         self.x, self.y, self.z, self.radius = (float(value) for value in row[1:5])
-        self.spot = {"omni": False, "spot": True}[row[8]]
+        shape = row[8]
+        self.spot = {"omni": False, "spot": True, "capsule": False, "wedge": True, "box": False}[shape]
         self.direction = tuple(float(value) for value in row[9:12])
         self.scale, self.offset, self.cos_outer = (float(value) for value in row[12:15])
+        self.side = tuple(float(value) for value in row[15:18])
+        self.half_length = float(row[18])
+        self.box = None
+        if shape == "box":
+            axes = (self.side, cross(self.direction, self.side), self.direction)
+            self.box = tuple(zip(axes, (float(value) for value in row[19:22])))
+        # The ball around the position that holds the light's volume.
+        self.reach = math.sqrt(sum(extent * extent for _, extent in self.box)) if self.box else self.half_length + self.radius
+
+    def nearest(self, dx, dy, dz):
+        """The offset to the centre made one to the nearest point of the source, and how far along the source that is."""
+        if not self.half_length:
+            return dx, dy, dz, 0.0
+        sx, sy, sz = self.side
+        along = max(-self.half_length, min(self.half_length, -(dx * sx + dy * sy + dz * sz)))
+        return dx + along * sx, dy + along * sy, dz + along * sz, abs(along)
+
+    def within(self, dx, dy, dz, distance, lever):
+        """Whether the point is within the light's radius or faces, and whether it is at one; (False, False) when clearly outside."""
+        if not self.box:
+            slack = MARGIN * (self.radius + lever)
+            return distance < self.radius, abs(distance - self.radius) <= slack
+        inside, near = True, False
+        for (ax, ay, az), extent in self.box:
+            beyond = abs(dx * ax + dy * ay + dz * az) - extent
+            at_face = abs(beyond) <= MARGIN * max(extent, distance)
+            if beyond >= 0 and not at_face:
+                return False, False
+            inside, near = inside and beyond < 0, near or at_face
+        return inside, near
 
 
 def read_lights(path):
     try:
         with open(path, newline="") as file:
             rows = list(csv.reader(file))
-        if not rows or rows[0][0] != "index" or len(rows[0]) != 15:
+        if not rows or rows[0][0] != "index" or len(rows[0]) != COLUMNS:
             raise ValueError("line 1 is not the header")
         return [Light(row) for row in rows[1:]]
     except OSError as problem:
@@ -141,7 +180,7 @@ def near_lights(lights, points):
         x = x0 - light.x if light.x < x0 else light.x - x1 if light.x > x1 else 0.0
         y = y0 - light.y if light.y < y0 else light.y - y1 if light.y > y1 else 0.0
         z = z0 - light.z if light.z < z0 else light.z - z1 if light.z > z1 else 0.0
-        reach = light.radius * (1 + 10 * MARGIN)
+        reach = light.reach * (1 + 10 * MARGIN)
         if x * x + y * y + z * z <= reach * reach:
             kept.append(light)
     return kept
@@ -153,25 +192,26 @@ def count(point, normal, lights):
     px, py, pz = point
     nx, ny, nz = normal
     for light in lights:
-        dx, dy, dz = light.x - px, light.y - py, light.z - pz
+        dx, dy, dz, lever = light.nearest(light.x - px, light.y - py, light.z - pz)
         distance = math.sqrt(dx * dx + dy * dy + dz * dz)
-        radius = light.radius
-        if distance > radius * (1 + MARGIN):
+        inside, edge = light.within(dx, dy, dz, distance, lever)
+        if not (inside or edge):
             continue
+        # Of the direction: single precision knows it the less the longer the way along the source is.
+        margin = MARGIN * (1 + lever / distance) if lever and distance else math.inf if lever else MARGIN
         if distance < TOUCHING:
             distance, dx, dy, dz = 0.0, nx, ny, nz
         else:
             dx, dy, dz = dx / distance, dy / distance, dz / distance
         facing = nx * dx + ny * dy + nz * dz
-        if facing < -MARGIN:
+        if facing < -margin:
             continue
-        inside = distance < radius and facing > 0
-        edge = distance >= radius * (1 - MARGIN) or facing <= MARGIN
+        inside, edge = inside and facing > 0, edge or facing <= margin
         if light.spot:
             cosine = -(dx * light.direction[0] + dy * light.direction[1] + dz * light.direction[2])
             ramp = cosine * light.scale + light.offset
             in_cone = cosine > light.cos_outer and ramp > 0
-            at_cone = abs(cosine - light.cos_outer) <= MARGIN or abs(ramp) <= MARGIN * abs(light.scale)
+            at_cone = abs(cosine - light.cos_outer) <= margin or abs(ramp) <= margin * abs(light.scale)
             if not in_cone and not at_cone:
                 continue
             inside, edge = inside and in_cone, edge or at_cone

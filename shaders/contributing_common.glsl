@@ -8,10 +8,11 @@ layout(push_constant, scalar) uniform Push { ContributingPush push; };
 layout(scalar, binding = 16) buffer Bounds { BlockBounds bounds[]; };
 layout(scalar, binding = 17) buffer Masks { uint masks[]; };
 
-// Whether the light's ball touches the box; widened by 1e-5, far more than rounding can take away. False for an empty box.
+// Whether the ball around the light's volume touches the box; widened by 1e-5, far more than rounding can take away. False for an empty box.
 bool touches(LightCore light, BlockBounds box) {
   vec3 outside = max(max(box.low - light.position, light.position - box.high), vec3(0.0));
-  return box.low.x <= box.high.x && dot(outside, outside) <= light.radius * light.radius * 1.00001;
+  float reach = light_bound(light);
+  return box.low.x <= box.high.x && dot(outside, outside) <= reach * reach * 1.00001;
 }
 
 #endif

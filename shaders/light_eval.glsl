@@ -1,7 +1,7 @@
 // What one light gives to one surface point, and when it gives anything at all: the single definition that every pass uses.
 //
 // Falloff: inverse square, windowed to exactly zero at the radius: (1 - (d/r)^4)^2 / max(d^2, 1e-4 m^2), the window of B. Karis,
-// "Real Shading in Unreal Engine 4", 2013.
+// "Real Shading in Unreal Engine 4", 2013; d to the nearest point of the light's source. The shapes: harness/scene/light.h.
 // BRDF: Lambert + GGX with height-correlated Smith visibility and Schlick's Fresnel.
 #ifndef ML_LIGHT_EVAL_GLSL
 #define ML_LIGHT_EVAL_GLSL
@@ -14,6 +14,10 @@ layout(constant_id = 1) const bool EFFECT_SPECULAR = true;
 // Loops over lights take several of them a turn: Mesa's software driver ends a shader's loops, without a word, after 65,535 turns in
 // all. Off where there are fewer lights, because it multiplies the time that programs take to compile.
 layout(constant_id = 3) const bool LONG_LISTS = false;
+// A shape whose effect is off shines like an omni light of the same radius.
+layout(constant_id = 4) const bool EFFECT_CAPSULES = true;
+layout(constant_id = 5) const bool EFFECT_WEDGES = true;
+layout(constant_id = 6) const bool EFFECT_BOXES = true;
 
 layout(scalar, binding = BIND_LIGHTS) readonly buffer Lights { LightCore lights[]; };
 layout(scalar, binding = BIND_EXTRAS) readonly buffer Extras { LightExtra extras[]; };
@@ -29,18 +33,75 @@ struct LightSample {
   REAL strength;   // falloff * cone, 1/m^2
 };
 
+bool is_shape(LightCore light, bool effect, uint shape) {
+  return effect && light.id_shape >> 24 == shape;
+}
+
+// m: the light gives nothing beyond this distance from its position.
+float light_bound(LightCore light) {
+  if (is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE) || is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE) ||
+      is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX))
+    return extras[light.id_shape & ML_LIGHT_ID_MASK].bound_radius;
+  return light.radius;
+}
+
+// Moves (dx, dy, dz) from the light's centre to the nearest point of its source segment; without a length it stays, bit for bit.
+void to_segment(LightExtra extra, inout REAL dx, inout REAL dy, inout REAL dz) {
+  REAL sx = REAL(extra.side.x), sy = REAL(extra.side.y), sz = REAL(extra.side.z), limit = REAL(extra.half_length);
+  precise REAL along = clamp(-(dx * sx + dy * sy + dz * sz), -limit, limit);
+  precise REAL x = dx + along * sx;
+  precise REAL y = dy + along * sy;
+  precise REAL z = dz + along * sz;
+  dx = x;
+  dy = y;
+  dz = z;
+}
+
+// The part of a box's window that belongs to one axis; false outside. An extent of 0 gives an infinite or no number: outside.
+bool in_slab(REAL ax, REAL ay, REAL az, REAL half_extent, REAL dx, REAL dy, REAL dz, inout REAL window) {
+  precise REAL place = dx * ax + dy * ay + dz * az;
+  precise REAL ratio = place * place / (half_extent * half_extent);
+  precise REAL product = window * (REAL(1) - ratio * ratio);
+  window = product;
+  return ratio < REAL(1);
+}
+
+bool in_box(LightExtra extra, REAL dx, REAL dy, REAL dz, out REAL window) {
+  VEC3 half_extents = VEC3(box_half_extents(extra)), side = VEC3(extra.side), front = VEC3(extra.direction);
+  precise REAL ux = front.y * side.z - front.z * side.y;
+  precise REAL uy = front.z * side.x - front.x * side.z;
+  precise REAL uz = front.x * side.y - front.y * side.x;
+  window = REAL(1);
+  return in_slab(side.x, side.y, side.z, half_extents.x, dx, dy, dz, window) &&
+         in_slab(ux, uy, uz, half_extents.y, dx, dy, dz, window) &&
+         in_slab(front.x, front.y, front.z, half_extents.z, dx, dy, dz, window);
+}
+
 // False when the light does not contribute: window 0, behind the surface, or outside the cone. `precise` because every pass must decide
 // alike.
 bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
   result.direction = VEC3(0);
   result.cosine = REAL(0);
   result.strength = REAL(0);
+  const uint id = light.id_shape & ML_LIGHT_ID_MASK;
+  const bool wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
   precise REAL dx = REAL(light.position.x) - REAL(point.position.x);
   precise REAL dy = REAL(light.position.y) - REAL(point.position.y);
   precise REAL dz = REAL(light.position.z) - REAL(point.position.z);
+  if (wedge || is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE)) to_segment(extras[id], dx, dy, dz);
   precise REAL distance_squared = dx * dx + dy * dy + dz * dz;
-  precise REAL radius_squared = REAL(light.radius) * REAL(light.radius);
-  if (!(distance_squared < radius_squared)) return false;
+  precise REAL window;
+  if (is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) {
+    REAL product;
+    if (!in_box(extras[id], dx, dy, dz, product)) return false;
+    window = product;
+  } else {
+    precise REAL radius_squared = REAL(light.radius) * REAL(light.radius);
+    if (!(distance_squared < radius_squared)) return false;
+    // A division may round to 1 what is less: then the window is 0, and the light contributes nothing.
+    precise REAL ratio = min(distance_squared / radius_squared, REAL(1));
+    window = REAL(1) - ratio * ratio;
+  }
   VEC3 normal = VEC3(point.normal);
   if (distance_squared < REAL(on_point_distance_squared)) {
     result.direction = normal;
@@ -52,12 +113,9 @@ bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
     result.direction = VEC3(dx, dy, dz) * inverse;
     result.cosine = min(projected * inverse, REAL(1));
   }
-  // A division may round to 1 what is less: then the window is 0, and the light contributes nothing.
-  precise REAL ratio = min(distance_squared / radius_squared, REAL(1));
-  precise REAL window = REAL(1) - ratio * ratio;
   result.strength = window * window / max(distance_squared, REAL(min_distance_squared));
-  if (EFFECT_SPOTS && light.id_shape >> 24 == ML_SHAPE_SPOT) {
-    LightExtra extra = extras[light.id_shape & ML_LIGHT_ID_MASK];
+  if (wedge || is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT)) {
+    LightExtra extra = extras[id];
     precise REAL along = -(result.direction.x * REAL(extra.direction.x) + result.direction.y * REAL(extra.direction.y) +
                            result.direction.z * REAL(extra.direction.z));
     precise REAL cone = clamp(along * REAL(extra.cone_scale) + REAL(extra.cone_offset), REAL(0), REAL(1));

@@ -45,7 +45,7 @@ AlgorithmEntry hybrid_entry() {
   entry.info.paper = "O'Donnell & Chajdas, Tiled Light Trees, I3D 2017";
   entry.info.cpu_stages = {"cull", "sort", "bin", "build", "upload"};
   entry.info.gpu_stages = {"shade"};
-  entry.info.shapes = {"omni", "spot"};
+  entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
   entry.parameters = froxel_parameters();
   for (ParameterInfo& info : tree_parameters()) entry.parameters.push_back(std::move(info));
   entry.parameters.push_back(ParameterInfo::real(

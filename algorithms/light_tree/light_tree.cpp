@@ -50,7 +50,7 @@ AlgorithmEntry light_tree_entry() {
   entry.info.paper = "O'Donnell & Chajdas, Tiled Light Trees, I3D 2017";
   entry.info.cpu_stages = {"cull", "sort", "bin", "build", "upload"};
   entry.info.gpu_stages = {"shade"};
-  entry.info.shapes = {"omni", "spot"};
+  entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
   entry.parameters = {ParameterInfo::integer("tile", 24, 4, 1024, "side of a screen tile in pixels")};
   for (ParameterInfo& info : tree_parameters()) entry.parameters.push_back(std::move(info));
   entry.parameters.push_back(walk_parameter());

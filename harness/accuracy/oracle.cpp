@@ -15,6 +15,56 @@ struct Condition {
   bool holds, near;
 };
 
+// A light as one point sees it.
+struct Sight {
+  glm::dvec3 to_light;  // unit, to the nearest point of the source
+  double distance;      // m
+  double blur;          // relative rounding of `to_light` in single precision, generously
+  double falloff;
+  Condition in_reach;
+};
+
+// In the axes of the box.
+glm::dvec3 place_in_box(const OracleLight& light, const glm::dvec3& from_centre) {
+  return {glm::dot(from_centre, light.side), glm::dot(from_centre, glm::cross(light.direction, light.side)),
+          glm::dot(from_centre, light.direction)};
+}
+
+Condition inside_box(const OracleLight& light, const glm::dvec3& place) {
+  bool inside = true, possible = true, near = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    double extent = light.half_extents[axis], beyond = std::abs(place[axis]) - extent;
+    bool at_face = std::abs(beyond) <= margin * std::max(extent, glm::length(place));
+    inside = inside && beyond < 0;
+    possible = possible && (beyond < 0 || at_face);
+    near = near || at_face;
+  }
+  return {inside, possible && near};
+}
+
+Sight see(const SurfacePoint& point, const OracleLight& light) {
+  const glm::dvec3 from_centre = point.position - light.position;
+  const double along = std::clamp(glm::dot(from_centre, light.side), -light.half_length, light.half_length);
+  const glm::dvec3 offset = light.side * along - from_centre;
+  const double lever = std::abs(along);
+  Sight sight;
+  sight.distance = glm::length(offset);
+  sight.blur = lever > 0 ? margin * (1 + lever / sight.distance) : margin;
+  const bool touching = sight.distance < coincident;
+  sight.to_light = touching ? point.normal : offset / sight.distance;
+  if (touching) sight.distance = 0;
+  if (light.box) {
+    const glm::dvec3 place = place_in_box(light, from_centre);
+    sight.falloff = oracle_box_falloff(place, light.half_extents);
+    sight.in_reach = inside_box(light, place);
+  } else {
+    sight.falloff = oracle_falloff(sight.distance, light.radius);
+    sight.in_reach = {sight.falloff > 0,
+                      std::abs(sight.distance - light.radius) <= margin * (light.radius + lever)};
+  }
+  return sight;
+}
+
 }  // namespace
 
 double oracle_falloff(double distance, double radius) {
@@ -22,6 +72,16 @@ double oracle_falloff(double distance, double radius) {
   double ratio = distance * distance / (radius * radius);
   double window = std::max(0.0, 1 - ratio * ratio);
   return window * window / std::max(distance * distance, 1e-4);
+}
+
+double oracle_box_falloff(const glm::dvec3& place, const glm::dvec3& half_extents) {
+  double window = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    double l = std::abs(place[axis]), h = half_extents[axis];
+    if (!(l < h)) return 0;
+    window *= std::max(0.0, 1 - std::pow(l / h, 4));
+  }
+  return window * window / std::max(glm::dot(place, place), 1e-4);
 }
 
 double oracle_cone(const OracleLight& light, double cosine) {
@@ -63,20 +123,16 @@ OracleAnswer oracle_shade(const SurfacePoint& point, std::span<const OracleLight
   }
   OracleAnswer answer;
   for (const OracleLight& light : lights) {
-    glm::dvec3 offset = light.position - point.position;
-    double distance = glm::length(offset);
-    bool touching = distance < coincident;
-    glm::dvec3 to_light = touching ? point.normal : offset / distance;
-    if (touching) distance = 0;
-
+    const Sight sight = see(point, light);
+    const glm::dvec3& to_light = sight.to_light;
     double facing = glm::dot(point.normal, to_light);
     double cosine = -glm::dot(to_light, light.direction);
-    double falloff = oracle_falloff(distance, light.radius), cone = oracle_cone(light, cosine);
-    Condition in_reach{falloff > 0, std::abs(distance - light.radius) <= margin * light.radius};
-    Condition faces{facing > 0, std::abs(facing) <= margin};
+    double cone = oracle_cone(light, cosine);
+    Condition in_reach = sight.in_reach;
+    Condition faces{facing > 0, std::abs(facing) <= sight.blur};
     double ramp = cosine * light.cone_scale + light.cone_offset;
-    Condition in_cone{cone > 0, light.spot && (std::abs(cosine - light.cos_outer) <= margin ||
-                                               std::abs(ramp) <= margin * std::abs(light.cone_scale))};
+    Condition in_cone{cone > 0, light.spot && (std::abs(cosine - light.cos_outer) <= sight.blur ||
+                                               std::abs(ramp) <= sight.blur * std::abs(light.cone_scale))};
 
     bool contributes = in_reach.holds && faces.holds && in_cone.holds;
     bool possible =
@@ -85,7 +141,7 @@ OracleAnswer oracle_shade(const SurfacePoint& point, std::span<const OracleLight
     if (!contributes) continue;
     ++answer.contributing;
     answer.radiance +=
-        light.intensity * (falloff * cone * facing) * oracle_brdf(point, to_light, to_viewer, specular);
+        light.intensity * (sight.falloff * cone * facing) * oracle_brdf(point, to_light, to_viewer, specular);
   }
   return answer;
 }

@@ -8,8 +8,9 @@
 //              f0 = mix(0.04, albedo, metallic). Sources: B. Walter et al., "Microfacet Models for Refraction
 //              through Rough Surfaces", EGSR 2007; E. Heitz, "Understanding the Masking-Shadowing Function",
 //              JCGT 3(2), 2014; C. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.
-// A light contributes iff falloff > 0, N.L > 0 and cone > 0. A light within 1e-6 m of the point has no
-// direction: it counts as shining from straight above (L = N, distance 0), so that the sum stays finite.
+// A light contributes iff falloff > 0, N.L > 0 and cone > 0. L, distance and cone are taken from the nearest
+// point of the light's source, a segment or a point. A light within 1e-6 m of the point has no direction: it
+// counts as shining from straight above (L = N, distance 0), so that the sum stays finite.
 #pragma once
 
 #include <cstdint>
@@ -38,14 +39,22 @@ struct OracleLight {
   bool spot = false;
   glm::dvec3 direction{0, -1, 0};
   double cone_scale = 0, cone_offset = 1, cos_outer = -2;
+  // The source is the segment position +- half_length * side.
+  glm::dvec3 side{1, 0, 0};
+  double half_length = 0;  // m
+  // The window is a box's in place of the ball's; half extents along side, cross(direction, side), direction.
+  bool box = false;
+  glm::dvec3 half_extents{0};  // m
 };
 
 struct OracleAnswer {
   glm::dvec3 radiance{0};
   uint32_t contributing = 0;
   // Lights so near to the edge of contributing (distance within 1e-5 of the radius, cosine within 1e-5 of 0
-  // or of the cone's edge, relative) that single precision may decide otherwise; they count in `contributing`
-  // by the double answer. A light that another condition excludes clearly is not among them.
+  // or of the cone's edge, relative; a place within 1e-5 of a box's face) that single precision may decide
+  // otherwise; they count in `contributing` by the double answer. Near a long segment the margins grow as the
+  // distance along it to the distance from it, for single precision knows the offset only within its rounding
+  // of the longer one. A light that another condition excludes clearly is not among them.
   uint32_t marginal = 0;
 };
 
@@ -54,6 +63,10 @@ OracleAnswer oracle_shade(const SurfacePoint& point, std::span<const OracleLight
 // One light's windowed inverse-square falloff in double: (1 - (d/r)^4)^2, exactly 0 from d = r on, over
 // max(d^2, 1e-4 m^2). Window: B. Karis, "Real Shading in Unreal Engine 4", 2013.
 double oracle_falloff(double distance, double radius);
+
+// The same for a box: the product of (1 - (l/h)^4)^2 over the axes for `place` l in the box's axes, exactly 0
+// at and outside its faces and for an extent of 0.
+double oracle_box_falloff(const glm::dvec3& place, const glm::dvec3& half_extents);
 
 // clamp(cosine * scale + offset, 0, 1)^2, 0 unless cosine > cos_outer; 1 for lights that are no spots.
 // `cosine`: between the spot's axis and the direction from the light to the point.

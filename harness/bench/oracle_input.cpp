@@ -7,6 +7,39 @@ glm::dvec3 three(const std::vector<float>& data, size_t pixel) {
   return {data[4 * pixel], data[4 * pixel + 1], data[4 * pixel + 2]};
 }
 
+// A shape whose effect is off shines like an omni light.
+bool shines(LightShape shape, const Effects& effects) {
+  switch (shape) {
+    case LightShape::omni:
+      return true;
+    case LightShape::spot:
+      return effects.spots;
+    case LightShape::capsule:
+      return effects.capsules;
+    case LightShape::wedge:
+      return effects.wedges;
+    case LightShape::box:
+      return effects.boxes;
+  }
+  return false;
+}
+
+void set_shape(LightShape shape, const gpu_data::LightExtra& extra, OracleLight& light) {
+  light.direction = extra.direction;
+  light.side = extra.side;
+  if (shape == LightShape::box) {
+    light.box = true;
+    light.half_extents = gpu_data::box_half_extents(extra);
+    return;
+  }
+  if (has_segment(shape)) light.half_length = static_cast<double>(extra.half_length);
+  if (!has_cone(shape)) return;
+  light.spot = true;
+  light.cone_scale = static_cast<double>(extra.cone_scale);
+  light.cone_offset = static_cast<double>(extra.cone_offset);
+  light.cos_outer = static_cast<double>(extra.cos_outer);
+}
+
 }  // namespace
 
 OracleFrame::OracleFrame(DeviceFrame& frame, const FrameInput& input)
@@ -20,14 +53,9 @@ OracleFrame::OracleFrame(DeviceFrame& frame, const FrameInput& input)
     light.position = core.position;
     light.radius = static_cast<double>(core.radius);
     light.intensity = core.intensity;
-    light.spot = frame.effects().spots && core.id_shape >> 24 == ML_SHAPE_SPOT;
-    if (light.spot) {
-      const gpu_data::LightExtra& extra = input.lights.extra[i];
-      light.direction = extra.direction;
-      light.cone_scale = static_cast<double>(extra.cone_scale);
-      light.cone_offset = static_cast<double>(extra.cone_offset);
-      light.cos_outer = static_cast<double>(extra.cos_outer);
-    }
+    const auto shape = static_cast<LightShape>(core.id_shape >> 24);
+    if (shape != LightShape::omni && shines(shape, frame.effects()))
+      set_shape(shape, input.lights.extra[i], light);
     lights_.push_back(light);
   }
   if (input.view.orthographic) view_direction_ = -glm::dvec3(input.view.forward);

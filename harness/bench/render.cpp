@@ -13,23 +13,33 @@
 namespace ml {
 namespace {
 
+void set_extra(LightShape shape, const gpu_data::LightExtra& extra, LightRow& row) {
+  for (int axis = 0; axis < 3; ++axis) {
+    row.direction[axis] = extra.direction[axis];
+    row.side[axis] = extra.side[axis];
+  }
+  if (shape == LightShape::box) {
+    for (int axis = 0; axis < 3; ++axis) row.half_extents[axis] = gpu_data::box_half_extents(extra)[axis];
+    return;
+  }
+  row.half_length = extra.half_length;
+  row.cone_scale = extra.cone_scale;
+  row.cone_offset = extra.cone_offset;
+  row.cos_outer = extra.cos_outer;
+}
+
 std::vector<LightRow> light_rows(const FrameInput& input) {
   std::vector<LightRow> rows;
   for (const gpu_data::LightCore& core : input.lights.core) {
     LightRow row;
     row.radius = core.radius;
-    row.shape = core.id_shape >> 24 == ML_SHAPE_SPOT ? "spot" : "omni";
+    const auto shape = static_cast<LightShape>(core.id_shape >> 24);
+    row.shape = light_shape_names().at(core.id_shape >> 24);
     for (int axis = 0; axis < 3; ++axis) {
       row.position[axis] = core.position[axis];
       row.intensity[axis] = core.intensity[axis];
     }
-    if (row.shape == "spot") {
-      const gpu_data::LightExtra& extra = input.lights.extra[rows.size()];
-      for (int axis = 0; axis < 3; ++axis) row.direction[axis] = extra.direction[axis];
-      row.cone_scale = extra.cone_scale;
-      row.cone_offset = extra.cone_offset;
-      row.cos_outer = extra.cos_outer;
-    }
+    if (shape != LightShape::omni) set_extra(shape, input.lights.extra[rows.size()], row);
     rows.push_back(row);
   }
   return rows;

@@ -42,9 +42,14 @@ Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const S
       lights_(std::make_unique<LightSet>(setup.lights, *scene_)),
       path_(path_of(setup.camera, *scene_)),
       threads_(threads) {
-  bool spots = std::any_of(lights_->base().begin(), lights_->base().end(),
-                           [](const Light& light) { return light.shape == LightShape::spot; });
-  effects_.spots = spots && setup.effects.spots;
+  auto has = [this](LightShape shape) {
+    return std::any_of(lights_->base().begin(), lights_->base().end(),
+                       [shape](const Light& light) { return light.shape == shape; });
+  };
+  effects_.spots = setup.effects.spots && has(LightShape::spot);
+  effects_.capsules = setup.effects.capsules && has(LightShape::capsule);
+  effects_.wedges = setup.effects.wedges && has(LightShape::wedge);
+  effects_.boxes = setup.effects.boxes && has(LightShape::box);
   effects_.specular = setup.effects.specular;
   effects_.long_lists = lights_->base().size() > Effects::most_turns;
   effects_.alpha_mask = setup.effects.alpha_mask && Level::has_masked_material(*scene_);

@@ -44,6 +44,9 @@ const std::vector<Row>& effects() {
   static const std::vector<Row> rows{
       {"omni", "point lights; always there"},
       {"spot", "cones; compiled in when a light of the scene is a spot (effects.spots: auto | off)"},
+      {"capsule", "omni lights with a length; when the scene has one (effects.capsules: auto | off)"},
+      {"wedge", "spots with a length; when the scene has one (effects.wedges: auto | off)"},
+      {"box", "windows with six faces; when the scene has one (effects.boxes: auto | off)"},
       {"specular", "GGX highlights (effects.specular: auto | off)"},
       {"alpha_mask",
        "cut-out materials; when a material of the scene has a mask (effects.alpha_mask: auto | off)"},

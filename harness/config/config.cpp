@@ -96,6 +96,8 @@ void check_setup(const Setup& setup, const OutputSpec& outputs, const Source& so
   };
   check_frames("$.outputs.heatmaps", outputs.heatmaps);
   check_frames("$.outputs.images", outputs.images);
+  if (std::string wrong = shape_shares_error(setup.lights); !wrong.empty())
+    Node(nothing, source, "$.lights").fail(wrong + at());
   for (size_t i = 0; i < setup.algorithms.size(); ++i) {
     const AlgorithmSpec& spec = setup.algorithms[i];
     const AlgorithmEntry& entry = find_algorithm(spec.name, source.name + ": $.algorithms");

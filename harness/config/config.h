@@ -41,6 +41,9 @@ struct OutputSpec {
 // "auto": found from the scene's content; "off": forced off. (design: Effects)
 struct EffectsSpec {
   bool spots = true;
+  bool capsules = true;
+  bool wedges = true;
+  bool boxes = true;
   bool specular = true;
   bool alpha_mask = true;
 };

@@ -20,10 +20,6 @@ uint32_t groups(uint32_t items, uint32_t per_group) {
   return (items + per_group - 1) / per_group;
 }
 
-std::vector<gpu::Constant> effect_constants(const Effects& effects) {
-  return {{0, effects.spots}, {1, effects.specular}, {3, effects.long_lists}};
-}
-
 template <typename Element>
 void upload(gpu::UploadBuffer& buffer, std::span<const Element> elements) {
   std::span<std::byte> memory = buffer.map(elements.size_bytes());
@@ -35,10 +31,17 @@ void upload(gpu::UploadBuffer& buffer, std::span<const Element> elements) {
 std::vector<std::string> Effects::names() const {
   std::vector<std::string> list{"omni"};
   if (spots) list.emplace_back("spot");
+  if (capsules) list.emplace_back("capsule");
+  if (wedges) list.emplace_back("wedge");
+  if (boxes) list.emplace_back("box");
   if (specular) list.emplace_back("specular");
   if (alpha_mask) list.emplace_back("alpha_mask");
   if (long_lists) list.emplace_back("long_lists");
   return list;
+}
+
+std::vector<gpu::Constant> Effects::constants() const {
+  return {{0, spots}, {1, specular}, {3, long_lists}, {4, capsules}, {5, wedges}, {6, boxes}};
 }
 
 struct DeviceFrame::ContributingPasses {
@@ -49,10 +52,10 @@ struct DeviceFrame::ContributingPasses {
   std::unique_ptr<gpu::Buffer> indices;
 
   ContributingPasses(gpu::Device& device, const Effects& effects, uint32_t width, uint32_t height)
-      : bounds(device, contributing_bounds, "contributing: bounds", effect_constants(effects)),
-        masks(device, contributing_masks, "contributing: masks", effect_constants(effects)),
-        count(device, contributing_count, "contributing: count", effect_constants(effects)),
-        fill(device, contributing_fill, "contributing: fill", effect_constants(effects)),
+      : bounds(device, contributing_bounds, "contributing: bounds", effects.constants()),
+        masks(device, contributing_masks, "contributing: masks", effects.constants()),
+        count(device, contributing_count, "contributing: count", effects.constants()),
+        fill(device, contributing_fill, "contributing: fill", effects.constants()),
         count_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage,
                     "contributing counts"),
         hash_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage,

@@ -16,6 +16,9 @@ namespace ml {
 // Which effects the content calls for; compiled in by specialization constants.
 struct Effects {
   bool spots = false;
+  bool capsules = false;
+  bool wedges = false;
+  bool boxes = false;
   bool specular = true;
   bool alpha_mask = false;
   // Shading loops fit for lists of more than `most_turns` lights (shaders/light_eval.glsl says why); costs
@@ -23,6 +26,8 @@ struct Effects {
   bool long_lists = true;
   static constexpr uint32_t most_turns = 28000;
   std::vector<std::string> names() const;  // those that are on, "omni" first
+  // The specialization constants that shaders/light_eval.glsl asks for.
+  std::vector<gpu::Constant> constants() const;
 };
 
 // Per-pixel counts of contributing lights, found without any algorithm under test, and on demand the lists

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace ml {
 namespace {
@@ -10,8 +11,24 @@ namespace {
 // Floats read past the end by vector code: 16 lanes of 4 bytes.
 constexpr size_t padding = 16;
 
-gpu_data::LightExtra cone_of(const Light& light) {
-  gpu_data::LightExtra extra{};
+// The smallest float that is not below.
+float rounded_up(double value) {
+  auto result = static_cast<float>(value);
+  return double{result} < value ? std::nextafter(result, std::numeric_limits<float>::infinity()) : result;
+}
+
+// Of the ball around the position that holds the light's volume.
+float bounding_radius(const Light& light) {
+  // The axes are rounded to float, which moves the ends of a segment and the corners of a box a little.
+  constexpr double rounding = 1 + 1e-6;
+  if (has_segment(light.shape) && light.half_length > 0)
+    return rounded_up((double{light.half_length} + double{light.radius}) * rounding);
+  if (light.shape == LightShape::box)
+    return rounded_up(std::max(glm::length(glm::dvec3(light.half_extents)), double{light.radius}) * rounding);
+  return light.radius;
+}
+
+void set_cone(const Light& light, gpu_data::LightExtra& extra) {
   extra.direction = light.direction;
   double inner = std::cos(static_cast<double>(light.inner_angle)),
          outer = std::cos(static_cast<double>(light.outer_angle));
@@ -20,6 +37,29 @@ gpu_data::LightExtra cone_of(const Light& light) {
   extra.cone_scale = static_cast<float>(scale);
   extra.cone_offset = static_cast<float>(-outer * scale);
   extra.cos_outer = static_cast<float>(outer);
+}
+
+gpu_data::LightExtra extra_of(const Light& light) {
+  gpu_data::LightExtra extra{};
+  extra.cone_offset = 1;
+  extra.cos_outer = -2;
+  extra.bound_radius = bounding_radius(light);
+  if (has_cone(light.shape)) set_cone(light, extra);
+  if (has_segment(light.shape)) extra.half_length = light.half_length;
+  if (light.shape == LightShape::omni || light.shape == LightShape::spot) return extra;
+  // Accepted axes are unit and at right angles to about 1e-3: here to the last bit but one. The directions of
+  // spots and wedges stay as they are.
+  glm::dvec3 side = glm::normalize(glm::dvec3(light.side)), front(light.direction);
+  if (light.shape == LightShape::capsule) extra.side = side;
+  if (light.shape != LightShape::wedge && light.shape != LightShape::box) return extra;
+  front = glm::normalize(front);
+  extra.side = glm::normalize(side - glm::dot(side, front) * front);
+  if (light.shape == LightShape::box) {
+    extra.direction = front;
+    extra.half_length = light.half_extents.x;
+    extra.cone_scale = light.half_extents.y;
+    extra.cone_offset = light.half_extents.z;
+  }
   return extra;
 }
 
@@ -49,9 +89,9 @@ void FrameLightStorage::fill(const std::vector<Light>& lights, const glm::vec3& 
   count_ = lights.size();
   for (std::vector<float>* column : {&x_, &y_, &z_, &radius_}) column->resize(count_ + padding);
   core_.resize(count_);
-  bool spots = std::any_of(lights.begin(), lights.end(),
-                           [](const Light& light) { return light.shape == LightShape::spot; });
-  extra_.resize(spots ? count_ : 0);
+  bool needs_extra = std::any_of(lights.begin(), lights.end(),
+                                 [](const Light& light) { return light.shape != LightShape::omni; });
+  extra_.resize(needs_extra ? count_ : 0);
   const glm::dvec3 eye(camera);
   for (size_t i = 0; i < count_; ++i) {
     const Light& light = lights[i];
@@ -59,10 +99,10 @@ void FrameLightStorage::fill(const std::vector<Light>& lights, const glm::vec3& 
     x_[i] = position.x;
     y_[i] = position.y;
     z_[i] = position.z;
-    radius_[i] = light.radius;
+    radius_[i] = bounding_radius(light);
     core_[i] = {position, light.radius, light.intensity,
                 static_cast<uint32_t>(i) | static_cast<uint32_t>(light.shape) << 24};
-    if (spots && light.shape == LightShape::spot) extra_[i] = cone_of(light);
+    if (needs_extra) extra_[i] = extra_of(light);
   }
 }
 

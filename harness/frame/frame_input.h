@@ -21,7 +21,6 @@ class FrameLightStorage {
   // `camera` as in Camera::position. Lights must have passed rejection_reason(); at most 2^24 of them.
   void fill(const std::vector<Light>& lights, const glm::vec3& camera);
   FrameLights lights() const;
-  bool has_spots() const { return !extra_.empty(); }
 
  private:
   size_t count_ = 0;

@@ -11,11 +11,9 @@ namespace {
 // at 16.
 std::vector<gpu::Constant> constants_of(const gpu::Device& device, const Effects& effects,
                                         const Algorithm& algorithm, bool block_list) {
-  std::vector<gpu::Constant> constants{{0, effects.spots},
-                                       {1, effects.specular},
-                                       {2, block_list},
-                                       {3, effects.long_lists},
-                                       {7, algorithm.walks_together() && device.limits().subgroup_exchange}};
+  std::vector<gpu::Constant> constants = effects.constants();
+  constants.push_back({2, block_list});
+  constants.push_back({7, algorithm.walks_together() && device.limits().subgroup_exchange});
   uint32_t id = 16;
   for (uint32_t value : algorithm.shade_constants()) constants.push_back({id++, value});
   return constants;

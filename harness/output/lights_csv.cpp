@@ -1,7 +1,9 @@
 #include "harness/output/lights_csv.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -15,13 +17,34 @@ namespace {
 
 constexpr std::string_view header =
     "index,x [m],y [m],z [m],radius [m],intensity_r [W/sr],intensity_g [W/sr],intensity_b [W/sr],shape,"
-    "direction_x,direction_y,direction_z,cone_scale,cone_offset,cos_outer";
-constexpr size_t columns = 15, shape_column = 8;
+    "direction_x,direction_y,direction_z,cone_scale,cone_offset,cos_outer,"
+    "side_x,side_y,side_z,half_length [m],half_extent_side [m],half_extent_up [m],half_extent_direction [m]";
+constexpr size_t columns = 22, shape_column = 8;
+constexpr std::array<std::string_view, 5> shapes{"omni", "spot", "capsule", "wedge", "box"};
 
 std::array<float*, columns> numbers_of(LightRow& row) {
-  return {nullptr,           &row.position[0],  &row.position[1],  &row.position[2], &row.radius,
-          &row.intensity[0], &row.intensity[1], &row.intensity[2], nullptr,          &row.direction[0],
-          &row.direction[1], &row.direction[2], &row.cone_scale,   &row.cone_offset, &row.cos_outer};
+  return {nullptr,
+          &row.position[0],
+          &row.position[1],
+          &row.position[2],
+          &row.radius,
+          &row.intensity[0],
+          &row.intensity[1],
+          &row.intensity[2],
+          nullptr,
+          &row.direction[0],
+          &row.direction[1],
+          &row.direction[2],
+          &row.cone_scale,
+          &row.cone_offset,
+          &row.cos_outer,
+          &row.side[0],
+          &row.side[1],
+          &row.side[2],
+          &row.half_length,
+          &row.half_extents[0],
+          &row.half_extents[1],
+          &row.half_extents[2]};
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -42,8 +65,9 @@ LightRow parse_row(std::string_view line, size_t index, const std::string& place
     throw UsageError(fmt::format("{}: expected index {}, found '{}'", place, index, cells[0]));
   LightRow row;
   row.shape = cells[shape_column];
-  if (row.shape != "omni" && row.shape != "spot")
-    throw UsageError(fmt::format("{}: expected shape omni or spot, found '{}'", place, row.shape));
+  if (std::find(shapes.begin(), shapes.end(), row.shape) == shapes.end())
+    throw UsageError(
+        fmt::format("{}: expected shape {}, found '{}'", place, fmt::join(shapes, ", "), row.shape));
   std::array<float*, columns> numbers = numbers_of(row);
   for (size_t c = 0; c < columns; ++c) {
     if (!numbers[c]) continue;

@@ -34,9 +34,8 @@ glm::dvec4 rotation_to(const glm::dvec3& direction) {
   return glm::normalize(glm::dvec4(d.y, -d.x, 0, 1 - d.z));
 }
 
-// The rotation whose columns are a camera's right, up and back.
-glm::dvec4 rotation_of(const Camera& camera) {
-  glm::dvec3 x(camera.right), y(camera.up), z(-camera.forward);
+// The rotation whose columns are these.
+glm::dvec4 rotation_of(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z) {
   glm::dvec4 q;
   double trace = x.x + y.y + z.z;
   if (trace > 0)
@@ -48,6 +47,21 @@ glm::dvec4 rotation_of(const Camera& camera) {
   else
     q = {z.x + x.z, y.z + z.y, 1 + z.z - x.x - y.y, x.y - y.x};
   return glm::normalize(q);
+}
+
+glm::dvec4 rotation_of(const Camera& camera) {
+  return rotation_of(glm::dvec3(camera.right), glm::dvec3(camera.up), -glm::dvec3(camera.forward));
+}
+
+// The rotation that takes x to the light's side and -z to its direction, where it has one.
+glm::dvec4 rotation_of(const Light& light) {
+  if (light.shape == LightShape::spot) return rotation_to(glm::dvec3(light.direction));
+  glm::dvec3 x = glm::normalize(glm::dvec3(light.side)), z = -glm::dvec3(light.direction);
+  if (light.shape == LightShape::capsule)
+    z = glm::cross(x, std::abs(x.y) < 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0));
+  z = glm::normalize(z);
+  x = glm::normalize(x - glm::dot(x, z) * z);
+  return rotation_of(x, glm::cross(z, x), z);
 }
 
 class Exporter {
@@ -203,8 +217,7 @@ class Exporter {
     OrderedJson lights = OrderedJson::array();
     for (const Light& light : lights_) {
       OrderedJson node = {{"translation", vector_json(light.position)}};
-      if (light.shape == LightShape::spot)
-        node["rotation"] = quaternion_json(rotation_to(glm::dvec3(light.direction)));
+      if (light.shape != LightShape::omni) node["rotation"] = quaternion_json(rotation_of(light));
       node["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
       out_.json()["nodes"].push_back(std::move(node));
       lights.push_back(light_json(light));
@@ -215,18 +228,27 @@ class Exporter {
   static OrderedJson light_json(const Light& light) {
     glm::dvec3 intensity(light.intensity);
     double peak = std::max({intensity.x, intensity.y, intensity.z});
-    OrderedJson json = {{"type", light.shape == LightShape::spot ? "spot" : "point"},
+    OrderedJson json = {{"type", has_cone(light.shape) ? "spot" : "point"},
                         {"color", vector_json(peak > 0 ? intensity / peak : glm::dvec3(1))},
                         {"intensity", peak},
                         {"range", light.radius}};
-    if (light.shape != LightShape::spot) return json;
+    OrderedJson own;
+    if (has_segment(light.shape) || light.shape == LightShape::box)
+      own["shape"] = light_shape_names()[static_cast<size_t>(light.shape)];
+    if (has_segment(light.shape)) own["half_length"] = light.half_length;
+    if (light.shape == LightShape::box) own["half_extents"] = vector_json(glm::dvec3(light.half_extents));
+    if (has_cone(light.shape)) add_cone(light, json, own);
+    if (!own.is_null()) json["extras"]["manylights"] = own;
+    return json;
+  }
+
+  static void add_cone(const Light& light, OrderedJson& json, OrderedJson& own) {
     // glTF's cones end at 90 degrees and never have a sharp edge; ours are kept beside them.
     double outer = std::min(double{light.outer_angle}, half_pi);
     double inner = std::min(double{light.inner_angle}, outer * (1 - 1e-6));
     json["spot"] = {{"innerConeAngle", inner}, {"outerConeAngle", outer}};
     if (inner != double{light.inner_angle} || outer != double{light.outer_angle})
-      json["extras"]["manylights"]["cone"] = {light.inner_angle, light.outer_angle};
-    return json;
+      own["cone"] = {light.inner_angle, light.outer_angle};
   }
 
   const Scene& scene_;

@@ -12,6 +12,36 @@ namespace {
 // r^2 has fallen to this, which is 1 % of what 1 W/sr gives at 1 m; at most the level's diagonal.
 constexpr double least_irradiance = 0.01;  // W/m^2
 
+LightShape shape_of(const std::string& type, const std::string& own) {
+  if (own == "capsule") return LightShape::capsule;
+  if (own == "wedge") return LightShape::wedge;
+  if (own == "box") return LightShape::box;
+  return type == "spot" ? LightShape::spot : LightShape::omni;
+}
+
+// The node's -z is the direction and its x the side. Scale and reflection leave the shape alone; where a
+// sheared node's axes are not at right angles, the direction stays and the side gives way.
+void set_axes(const File& file, const PlacedNode& placed, Light& light) {
+  auto unit = [&](const glm::dvec3& axis) {
+    double length = glm::length(axis);
+    if (!(length > 1e-150 && std::isfinite(length)))
+      file.fail(at("nodes", placed.node), "a " + light_shape_names()[static_cast<size_t>(light.shape)] +
+                                              " light needs a direction, but the scale is 0");
+    return axis / length;
+  };
+  const bool has_direction = has_cone(light.shape) || light.shape == LightShape::box;
+  const bool has_side = has_segment(light.shape) || light.shape == LightShape::box;
+  glm::dvec3 direction(0);
+  if (has_direction) {
+    direction = unit(-glm::dvec3(placed.world[2]));
+    light.direction = glm::vec3(direction);
+  }
+  if (has_side) {
+    glm::dvec3 side = unit(glm::dvec3(placed.world[0]));
+    light.side = glm::vec3(unit(side - glm::dot(side, direction) * direction));
+  }
+}
+
 // glTF's candela and lux are taken as W/sr and W/m^2, one for one: the bench's pictures have no photometric
 // scale.
 Light light_of(const File& file, size_t index, const PlacedNode& placed, const glm::dvec3& center,
@@ -29,26 +59,26 @@ Light light_of(const File& file, size_t index, const PlacedNode& placed, const g
     light.intensity[c] = static_cast<float>(color * source.intensity);
     peak = std::max(peak, color * source.intensity);
   }
-  if (json.contains("range")) {
+  const Json own = json.value("/extras/manylights"_json_pointer, Json::object());
+  light.shape = shape_of(source.type, own.value("shape", ""));
+  if (light.shape == LightShape::box) {
+    make_box(light, {own["half_extents"][0].get<float>(), own["half_extents"][1].get<float>(),
+                     own["half_extents"][2].get<float>()});
+  } else if (json.contains("range")) {
     light.radius = static_cast<float>(source.range);
   } else {
     ++without_range;
     light.radius = static_cast<float>(std::min(std::sqrt(peak / least_irradiance), diagonal));
   }
-  if (source.type != "spot") return light;
-
-  light.shape = LightShape::spot;
-  glm::dvec3 axis = -glm::dvec3(placed.world[2]);
-  double length = glm::length(axis);
-  if (!(length > 1e-150 && std::isfinite(length)))
-    file.fail(at("nodes", placed.node), "a spot light needs a direction, but the scale is 0");
-  light.direction = glm::vec3(axis / length);
+  set_axes(file, placed, light);
+  if (has_segment(light.shape)) light.half_length = own["half_length"].get<float>();
+  if (!has_cone(light.shape)) return light;
   light.inner_angle = static_cast<float>(source.spot.innerConeAngle);
   light.outer_angle = json["spot"].contains("outerConeAngle") ? static_cast<float>(source.spot.outerConeAngle)
                                                               : light.outer_angle;
-  if (Json cone = json.value("/extras/manylights/cone"_json_pointer, Json()); !cone.is_null()) {
-    light.inner_angle = cone[0].get<float>();
-    light.outer_angle = cone[1].get<float>();
+  if (own.contains("cone")) {
+    light.inner_angle = own["cone"][0].get<float>();
+    light.outer_angle = own["cone"][1].get<float>();
   }
   return light;
 }

@@ -8,8 +8,8 @@ namespace ml::gltf {
 namespace {
 
 constexpr std::string_view magic = "MLLIGHTS";
-constexpr uint32_t version = 1;
-constexpr size_t header_size = 16, record_size = 64;
+constexpr uint32_t version = 2;
+constexpr size_t header_size = 16, record_size = 92, old_record_size = 64;
 
 class Writer {
  public:
@@ -61,6 +61,9 @@ std::vector<std::byte> encode_lights(const std::vector<Light>& lights) {
     out.put_float(light.inner_angle);
     out.put_float(light.outer_angle);
     out.put32(static_cast<uint32_t>(light.shape));
+    for (int c = 0; c < 3; ++c) out.put_float(light.side[c]);
+    out.put_float(light.half_length);
+    for (int c = 0; c < 3; ++c) out.put_float(light.half_extents[c]);
   }
   return std::move(out.bytes);
 }
@@ -70,12 +73,14 @@ std::vector<Light> decode_lights(const std::string& name, Bytes bytes) {
   if (bytes.size() < header_size || std::memcmp(bytes.data(), magic.data(), magic.size()) != 0)
     fail("not a light file: it does not begin with 'MLLIGHTS'");
   Reader in(bytes.subspan(magic.size()));
-  if (uint32_t found = in.get32(); found != version)
-    fail("header: expected version " + std::to_string(version) + ", found " + std::to_string(found));
+  const uint32_t found = in.get32();
+  if (found != 1 && found != version)
+    fail("header: expected version 1 or " + std::to_string(version) + ", found " + std::to_string(found));
+  const bool old = found == 1;
   size_t count = in.get32();
   if (count > max_file_lights)
     fail("header: " + std::to_string(count) + " lights, more than " + std::to_string(max_file_lights));
-  if (size_t wanted = header_size + record_size * count; bytes.size() != wanted)
+  if (size_t wanted = header_size + (old ? old_record_size : record_size) * count; bytes.size() != wanted)
     fail("header: " + std::to_string(count) + " lights take " + std::to_string(wanted) +
          " bytes, but the file has " + std::to_string(bytes.size()));
   std::vector<Light> lights(count);
@@ -88,8 +93,13 @@ std::vector<Light> decode_lights(const std::string& name, Bytes bytes) {
     light.inner_angle = in.get_float();
     light.outer_angle = in.get_float();
     uint32_t shape = in.get32();
-    if (shape > 1) fail(at("lights", i) + ": shape " + std::to_string(shape) + ", expected 0 or 1");
+    if (const uint32_t most = old ? 1 : 4; shape > most)
+      fail(at("lights", i) + ": shape " + std::to_string(shape) + ", expected 0 to " + std::to_string(most));
     light.shape = static_cast<LightShape>(shape);
+    if (old) continue;
+    for (int c = 0; c < 3; ++c) light.side[c] = in.get_float();
+    light.half_length = in.get_float();
+    for (int c = 0; c < 3; ++c) light.half_extents[c] = in.get_float();
   }
   return lights;
 }

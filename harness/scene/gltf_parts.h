@@ -48,7 +48,11 @@ struct TextureMapping {
 };
 TextureMapping texture_mapping(const File& file, int material);
 
-// gltf_light.cpp. Lights of the nodes and of the side file, relative to `center`.
+// gltf_light.cpp. Lights of the nodes and of the side file, relative to `center`. Shapes that
+// KHR_lights_punctual does not have stand in the light's extras.manylights: "shape" "capsule" or "box" on a
+// point light, "wedge" on a spot; with "half_length" (m), or "half_extents" (m, along side, cross(direction,
+// side), direction). The node's -z is the direction, its x the side; `range` is the window's radius (boxes
+// have theirs from the extents). Other programs see points and spots.
 void load_lights(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3& center, Scene& scene);
 
 // gltf_camera.cpp. One path per camera, relative to `center`; sets scene.near from the first. No path when
@@ -93,10 +97,11 @@ std::vector<std::byte> encode_png(const Texture& texture);
 // gltf_tiny.cpp. tinygltf's Model of the checked description. Throws UsageError.
 tinygltf::Model parse_model(const File& file);
 
-// gltf_light_file.cpp: FILE.lights.bin, all little-endian: "MLLIGHTS", uint32 version (1), uint32 count, then
-// for each light 64 bytes: double position[3] (m, relative to the level's origin), float radius (m), float
+// gltf_light_file.cpp: FILE.lights.bin, all little-endian: "MLLIGHTS", uint32 version (2), uint32 count, then
+// for each light 92 bytes: double position[3] (m, relative to the level's origin), float radius (m), float
 // intensity[3] (W/sr), float direction[3], float inner_angle, float outer_angle (radians), uint32 shape (0
-// omni, 1 spot).
+// omni, 1 spot, 2 capsule, 3 wedge, 4 box), float side[3], float half_length (m), float half_extents[3] (m).
+// Version 1 is read too: 64 bytes a light, up to the shape, which is 0 or 1.
 constexpr size_t max_file_lights = 1048576;
 std::vector<std::byte> encode_lights(const std::vector<Light>& lights);
 std::vector<Light> decode_lights(const std::string& name, Bytes bytes);

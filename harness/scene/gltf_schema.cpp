@@ -155,7 +155,8 @@ Fields light_fields() {
           number("intensity"),
           number("range"),
           object("spot", {number("innerConeAngle"), number("outerConeAngle")}),
-          own_extras({numbers("cone", 2)})};
+          own_extras({numbers("cone", 2), text("shape", {"capsule", "wedge", "box"}), number("half_length"),
+                      numbers("half_extents", 3)})};
 }
 
 const Fields& document_fields() {
@@ -328,6 +329,19 @@ void check_version_and_extensions(const File& file, const Json& raw, const Json&
   }
 }
 
+// The bench's own shapes: what each needs, and which of glTF's lights it is for other programs.
+void check_shape(const File& file, const Json& light, const std::string& place) {
+  const Json own = light.value("/extras/manylights"_json_pointer, Json::object());
+  const std::string shape = own.value("shape", "");
+  if (shape.empty()) return;
+  const char* type = shape == "wedge" ? "spot" : "point";
+  const char* size = shape == "box" ? "half_extents" : "half_length";
+  if (light["type"] != type)
+    file.fail(place + ".type", "is '" + light["type"].get<std::string>() + "', expected '" + type +
+                                   "' for the shape '" + shape + "'");
+  if (!own.contains(size)) file.fail(place + ".extras.manylights", "'" + std::string(size) + "' is missing");
+}
+
 // What the table cannot say: members that others ask for. tinygltf would stop at these without naming a
 // place.
 void check_companions(const File& file, const Json& checked) {
@@ -343,9 +357,11 @@ void check_companions(const File& file, const Json& checked) {
   for (size_t i = 0; i < cameras.size(); ++i)
     if (std::string type = cameras[i]["type"]; !cameras[i].contains(type))
       file.fail(at("cameras", i), "'" + type + "' is missing");
-  for (size_t i = 0; i < lights.size(); ++i)
-    if (lights[i]["type"] == "spot" && !lights[i].contains("spot"))
-      file.fail(std::string(lights_array) + "[" + std::to_string(i) + "]", "'spot' is missing");
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const std::string place = std::string(lights_array) + "[" + std::to_string(i) + "]";
+    if (lights[i]["type"] == "spot" && !lights[i].contains("spot")) file.fail(place, "'spot' is missing");
+    check_shape(file, lights[i], place);
+  }
   for (size_t m = 0; m < meshes.size(); ++m)
     for (size_t p = 0; p < meshes[m]["primitives"].size(); ++p)
       if (const Json& primitive = meshes[m]["primitives"][p]; primitive.contains("indices"))

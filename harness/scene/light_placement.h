@@ -19,13 +19,16 @@ enum class LightDimension : uint32_t {
   lift,
   radius,
   hue,
-  is_spot,
+  shape,
   tilt,
   azimuth,
   cone,
   rate,
   phase,
-  orbit
+  orbit,
+  turn,
+  aspect_0,
+  aspect_1
 };
 class LightNumbers {
  public:

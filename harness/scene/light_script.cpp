@@ -34,10 +34,12 @@ bool spawn(const LightNumbers& number, double seconds, Light& light) {
   if (age < 0) age += 1;
   if (age >= kLitShare) return false;
   double fade = std::min({age * (1 / kFadeShare), (kLitShare - age) * (1 / kFadeShare), 1.0});
-  light.radius = static_cast<float>(light.radius * fade);
+  scale_size(light, fade);
   // Intensity goes with the square of the radius, as in the radius law.
   light.intensity *= static_cast<float>(fade * fade);
-  return light.radius >= kMinLightRadius;
+  const glm::vec3& half = light.half_extents;
+  const float thinnest = light.shape == LightShape::box ? std::min({half.x, half.y, half.z}) : light.radius;
+  return thinnest >= kMinLightRadius;
 }
 
 }  // namespace

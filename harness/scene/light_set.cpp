@@ -11,13 +11,12 @@
 #include "harness/scene/light_law.h"
 #include "harness/scene/light_placement.h"
 #include "harness/scene/light_script.h"
-#include "harness/scene/turn.h"
+#include "harness/scene/light_shape_law.h"
 
 namespace ml {
 namespace {
 
 constexpr uint32_t kMaxLights = 1048576;
-constexpr double kDegree = 3.141592653589793 / 180;
 
 // The closed-form scene has its own lights: equal, at one height, uniform over its area whatever the
 // placement.
@@ -41,21 +40,16 @@ glm::vec3 colour_of_hue(float hue) {
   return colour * (3 / (colour.x + colour.y + colour.z));
 }
 
-// Stage lights: tilted 25 to 65 degrees from straight down, half-angle 14 to 30 degrees.
-void make_spot(const LightNumbers& number, Light& light) {
-  light.shape = LightShape::spot;
-  double tilt = (25 + 40 * number(LightDimension::tilt)) / 360.0;
-  double azimuth = number(LightDimension::azimuth);
-  double level = sine_of_turns(tilt);
-  light.direction = glm::vec3(glm::normalize(
-      glm::dvec3(level * cosine_of_turns(azimuth), -cosine_of_turns(tilt), level * sine_of_turns(azimuth))));
-  double outer = (14 + 16 * number(LightDimension::cone)) * kDegree;
-  light.outer_angle = static_cast<float>(outer);
-  light.inner_angle = static_cast<float>(0.7 * outer);
-}
-
-bool finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+// Boxes have their radius from their extents, in the proportions that they have.
+void override_radius(float radius, Light& light) {
+  if (light.shape != LightShape::box) {
+    light.radius = radius;
+    return;
+  }
+  const glm::dvec3 half(light.half_extents);
+  const double diagonal = glm::length(half);
+  // Extents that cannot be scaled are refused as they are.
+  if (diagonal > 0 && std::isfinite(diagonal)) make_box(light, glm::vec3(half * (double{radius} / diagonal)));
 }
 
 }  // namespace
@@ -81,35 +75,21 @@ LightSpec completed(LightSpec spec, const LightDefaults& defaults) {
   return spec;
 }
 
-const char* rejection_reason(const Light& light) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!std::isfinite(light.position[axis])) return "position is not finite";
-    if (std::abs(light.position[axis]) > kMaxLightPosition) return "position is beyond 1e12 m";
-  }
-  if (!std::isfinite(light.radius)) return "radius is not finite";
-  if (light.radius < 0) return "radius is negative";
-  if (light.radius == 0) return "radius is 0";
-  if (light.radius < kMinLightRadius) return "radius is below 1e-12 m";
-  if (light.radius > kMaxLightRadius) return "radius is above 1e12 m";
-  if (!finite(light.intensity)) return "intensity is not finite";
-  if (light.intensity.x < 0 || light.intensity.y < 0 || light.intensity.z < 0) return "intensity is negative";
-  if (light.shape != LightShape::spot) return nullptr;
-  if (!finite(light.direction)) return "direction is not finite";
-  float square = glm::dot(light.direction, light.direction);
-  if (!(std::abs(square - 1) < 1e-3f)) return "direction is not of unit length";
-  if (!std::isfinite(light.inner_angle) || !std::isfinite(light.outer_angle))
-    return "cone angle is not finite";
-  if (light.outer_angle <= 0) return "outer cone angle is not above 0";
-  if (light.outer_angle > 3.1415928f) return "outer cone angle is above pi";
-  if (light.inner_angle < 0) return "inner cone angle is negative";
-  if (light.inner_angle > light.outer_angle) return "inner cone angle is above the outer";
-  return nullptr;
+std::string shape_shares_error(const LightSpec& spec) {
+  const double sum = double{spec.spot_fraction} + double{spec.capsule_fraction} +
+                     double{spec.wedge_fraction} + double{spec.box_fraction};
+  // Shares like 0.1, 0.2, 0.3 and 0.4 add up to 1 but for rounding.
+  if (sum <= 1 + 1e-6) return "";
+  return fmt::format(
+      "spot_fraction, capsule_fraction, wedge_fraction and box_fraction add up to {:.6g}, expected at most 1",
+      sum);
 }
 
 LightSet::LightSet(const LightSpec& spec, const Scene& scene) : spec_(adapted(spec, scene)) {
   if (spec_.count > kMaxLights) {
     throw UsageError(fmt::format("lights: count is {}, expected at most {}", spec_.count, kMaxLights));
   }
+  if (std::string wrong = shape_shares_error(spec_); !wrong.empty()) throw UsageError("lights: " + wrong);
   auto accept = [this](const Light& light) {
     if (const char* reason = rejection_reason(light)) {
       ++rejected_[reason];
@@ -127,7 +107,7 @@ LightSet::LightSet(const LightSpec& spec, const Scene& scene) : spec_(adapted(sp
     lights_.reserve(count);
     for (size_t i = 0; i < count; ++i) {
       Light light = scene.lights[i];
-      if (spec_.radius > 0) light.radius = spec_.radius;
+      if (spec_.radius > 0) override_radius(spec_.radius, light);
       light.intensity *= spec_.intensity;
       accept(light);
     }
@@ -162,9 +142,11 @@ LightSet::LightSet(const LightSpec& spec, const Scene& scene) : spec_(adapted(sp
     } else {
       light.position = corner + extent * choice;
     }
+    const float ball_radius = light.radius;
+    give_shape(shape_of(number, spec_), number, light);
+    const float lit_radius = light.shape == LightShape::box ? ball_radius : light.radius;
     glm::vec3 colour = colour_of_hue(number(LightDimension::hue));
-    light.intensity = colour * static_cast<float>(intensity_for_radius(light.radius)) * spec_.intensity;
-    if (number(LightDimension::is_spot) < spec_.spot_fraction) make_spot(number, light);
+    light.intensity = colour * static_cast<float>(intensity_for_radius(lit_radius)) * spec_.intensity;
     accept(light);
   }
 }

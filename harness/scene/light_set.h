@@ -34,8 +34,9 @@ struct LightSpec {
   float radius = 0;        // m, > 0: every light has this radius, and the law is not used
   // m, placements `triangle` and `area`: > 0 puts every light exactly this far along the surface normal.
   float height = 0;
-  float spot_fraction = 0;  // [0, 1]: this part of the lights (by hash) are spots
-  float intensity = 1;      // factor on all intensities, > 0
+  // [0, 1] each, [0, 1] together: this part of the lights (by hash) have the shape; the rest are omni.
+  float spot_fraction = 0, capsule_fraction = 0, wedge_fraction = 0, box_fraction = 0;
+  float intensity = 1;  // factor on all intensities, > 0
   uint32_t seed = 1;
   LightScript script = LightScript::none;
 };
@@ -52,25 +53,30 @@ using Rejections = std::map<std::string, uint32_t>;
 inline constexpr float kMinLightRadius = 1e-12f, kMaxLightRadius = 1e12f;
 inline constexpr double kMaxLightPosition = 1e12;
 
-// The reason why a light cannot be used, or nullptr when it can: position, radius, intensity and angles
-// finite and within the limits above; radius > 0; intensity >= 0; direction of unit length for spots; 0 <
-// outer_angle <= pi and inner_angle <= outer_angle (they may be equal).
+// The reason why a light cannot be used, or nullptr when it can: position, radius, intensity, angles, lengths
+// and extents finite and within the limits above; radius and half extents > 0, half length >= 0; intensity >=
+// 0; direction and side of unit length and at right angles where the shape has them; a box's radius its half
+// diagonal; 0 < outer_angle <= pi and inner_angle <= outer_angle (they may be equal).
 const char* rejection_reason(const Light& light);
+
+// "", or what is wrong: the shares of the shapes add up to more than 1.
+std::string shape_shares_error(const LightSpec& spec);
 
 // The lights of a run. `at(frame)` is a pure function of (spec, scene, frame).
 class LightSet {
  public:
   // Throws UsageError when the scene cannot carry the placement (`gltf` without lights, surfaces without
-  // triangles), or the count is too large. `gltf` takes the first `count` of the file's lights. On the scene
-  // `plane` every placement but `gltf` is `area`, of radius 4 and height 2 where the spec names none.
+  // triangles), the count is too large, or the shares of the shapes are. `gltf` takes the first `count` of
+  // the file's lights. On the scene `plane` every placement but `gltf` is `area`, of radius 4 and height 2
+  // where the spec names none.
   LightSet(const LightSpec& spec, const Scene& scene);
 
   // The lights that shine in frame `frame` of a path of `frames` frames that lasts `duration` seconds, in
   // ascending order of their stable identity. drift: each light orbits its place within its own radius.
-  // spawn: each light has a seeded life and pause, and fades in and out by its radius; about 70 % shine at
-  // once. A camera that stands still (duration 0) runs at 60 frames a second, so that its lights still move.
-  // Never returns a light that rejection_reason() refuses. Reuses `out`; allocates nothing once `out` has its
-  // capacity.
+  // spawn: each light has a seeded life and pause, and fades in and out by its size (scale_size); about 70 %
+  // shine at once. A camera that stands still (duration 0) runs at 60 frames a second, so that its lights
+  // still move. Never returns a light that rejection_reason() refuses. Reuses `out`; allocates nothing once
+  // `out` has its capacity.
   void at(uint32_t frame, uint32_t frames, double duration, std::vector<Light>& out) const;
 
   const std::vector<Light>& base() const { return lights_; }  // accepted lights before scripting

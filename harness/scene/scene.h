@@ -117,10 +117,10 @@ Scene import_gltf(const std::filesystem::path& file, int scene_index, uint32_t s
 Scene import_gltf_memory(std::span<const std::byte> bytes, const std::string& name, int scene_index,
                          uint32_t seed, const glm::dvec3& offset);
 
-// Writes scene, cameras (the keys of the default path as an animated camera) and lights (KHR_lights_punctual,
-// up to 4096; above that in a binary side file FILE.lights.bin named in the file's extras; its format:
-// gltf_parts.h). Byte-identical on every machine. Throws SystemError, and UsageError for a scene without
-// triangles and for a light that rejection_reason() refuses.
+// Writes scene, cameras (the keys of the default path as an animated camera) and lights (KHR_lights_punctual
+// with extras for the shapes that it does not have, up to 4096; above that in a binary side file
+// FILE.lights.bin named in the file's extras; formats: gltf_parts.h). Byte-identical on every machine. Throws
+// SystemError, and UsageError for a scene without triangles and for a light that rejection_reason() refuses.
 void export_glb(const Scene& scene, const std::vector<Light>& lights, const std::filesystem::path& file);
 
 // A path at eye height (1.7 m) above upward-facing floor, looking along long free views; seeded,

@@ -36,7 +36,7 @@ TEST(Commands, ARenderedFrameIsCheckedByAnotherProgram) {
   json config = small_config({{"scene", "canyon"},
                               {"resolution", {160, 90}},
                               {"algorithms", {"clustered"}},
-                              {"lights", {{"count", 1500}, {"spot_fraction", 0.3}}}});
+                              {"lights", all_shapes(1500)}});
   const std::string stem = (folder / "frame").string();
   Outcome outcome = manylights({"render", write_config(folder, config), "--frame", "1", "--out",
                                 stem + ".exr", "--aov", "all", "--lights", stem + ".csv", "--validation"});

@@ -110,7 +110,7 @@ TEST(LevelFiles, ExportedScenesPassTheKhronosValidator) {
   Folder folder;
   for (const char* name : {"canyon", "citadel", "grove"}) {
     const std::string file = (folder / (std::string(name) + ".glb")).string();
-    ASSERT_EQ(manylights({"scene", name, "--out", file, "--set", "lights.count=100"}).code, 0);
+    ASSERT_EQ(manylights({"scene", name, "--out", file, "--set", "lights=" + all_shapes(100).dump()}).code, 0);
     Outcome checked = run_process({"node", ML_SOURCE_DIR "/tests/end_to_end/validate_gltf.mjs", file});
     if (checked.code == 77 || checked.code == 127)
       GTEST_SKIP() << "node or its package gltf-validator is not installed";
@@ -128,7 +128,7 @@ TEST_P(RealLevel, IsProven) {
   Folder folder;
   json config =
       small_config({{"scene", {{"gltf", file.string()}}},
-                    {"lights", {{"count", 2048}, {"placement", "volume"}, {"spot_fraction", 0.25}}},
+                    {"lights", all_shapes(2048)},
                     {"resolution", {160, 90}},
                     {"algorithms", {"ideal", "clustered", {{"name", "clustered"}, {"refinement", true}}}}});
   Outcome outcome = manylights({"verify", write_config(folder, config), "--frames", "2", "--brute-force",

@@ -130,6 +130,11 @@ nlohmann::json small_config(const nlohmann::json& changes) {
   return config;
 }
 
+nlohmann::json all_shapes(uint32_t count) {
+  return {{"count", count},          {"placement", "volume"}, {"spot_fraction", 0.2},
+          {"capsule_fraction", 0.2}, {"wedge_fraction", 0.2}, {"box_fraction", 0.2}};
+}
+
 std::string write_config(const Folder& folder, const nlohmann::json& config, const std::string& name) {
   write_text(folder / name, config.dump());
   return (folder / name).string();

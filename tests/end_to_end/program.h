@@ -55,6 +55,8 @@ void write_text(const std::filesystem::path& file, const std::string& text);
 // A small configuration: the plane with 40 lights at 48x27, 2 frames, 1 repeat, ideal and clustered;
 // `changes` replace or add keys.
 nlohmann::json small_config(const nlohmann::json& changes = nlohmann::json::object());
+// "lights" of a configuration: all shapes, spread over the volume.
+nlohmann::json all_shapes(uint32_t count);
 // Writes it into the folder, returns the file's name.
 std::string write_config(const Folder& folder, const nlohmann::json& config,
                          const std::string& name = "config.json");

@@ -15,9 +15,9 @@ class Contributing : public DeviceTest {};
 
 TEST_F(Contributing, IsTheOraclesCountAtEveryPixel) {
   constexpr uint32_t width = 61, height = 37;
-  DeviceFrame frame(device(), yard(), {.spots = true}, width, height);
+  DeviceFrame frame(device(), yard(), all_shapes(true), width, height);
   const Camera camera = camera_at({0, 3, 14}, {0, 1, -10}, width, height);
-  std::vector<Light> lights = scattered(700, {-30, -1, -40}, {30, 12, 14}, 0.2f, 12, 3);
+  std::vector<Light> lights = mixed_shapes(700, {-30, -1, -40}, {30, 12, 14}, 0.2f, 12, 3);
   FrameLightStorage storage;
   storage.fill(lights, camera.position);
   FrameInput input;

@@ -41,8 +41,11 @@ Camera random_camera(Random& random, uint32_t width, uint32_t height) {
 
 std::vector<Light> random_lights(Random& random, const Camera& camera) {
   const uint32_t counts[] = {0, 1, 17, 64, 200, 400};
-  std::vector<Light> lights = scattered(counts[random.below(6)], {-40, -2, -45}, {40, 15, 30}, 0.02f, 40,
-                                        random.next(), 1 + random.below(4));
+  const uint32_t count = counts[random.below(6)];
+  std::vector<Light> lights =
+      random.below(2)
+          ? scattered(count, {-40, -2, -45}, {40, 15, 30}, 0.02f, 40, random.next(), 1 + random.below(4))
+          : mixed_shapes(count, {-40, -2, -45}, {40, 15, 30}, 0.02f, 40, random.next());
   // Some at and behind the camera, with the eye inside or just outside.
   for (uint32_t i = random.below(20); i > 0; --i) {
     const glm::vec3 off = (camera.forward * random.uniform(-1, 1) + camera.right * random.uniform(-1, 1) +
@@ -67,7 +70,7 @@ ClusteredSettings random_settings(Random& random) {
 }
 
 void expect_random_cases(uint32_t width, uint32_t height, uint32_t cases, uint32_t seed) {
-  Exactness check(yard(), width, height);
+  Exactness check(yard(), width, height, all_shapes());
   uint64_t contributing = 0;
   for (uint32_t number = 0; number < cases && !testing::Test::HasFailure(); ++number) {
     SCOPED_TRACE(fmt::format("{}x{}, seed {}, case {}", width, height, seed, number));

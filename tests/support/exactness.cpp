@@ -231,6 +231,65 @@ Light spot(glm::dvec3 position, float radius, glm::vec3 direction, float inner_d
   return light;
 }
 
+Light capsule(glm::dvec3 position, float radius, glm::vec3 side, float half_length) {
+  Light light = omni(position, radius, radius * radius);
+  light.shape = LightShape::capsule;
+  light.side = glm::normalize(side);
+  light.half_length = half_length;
+  return light;
+}
+
+Light wedge(const Light& spot, glm::vec3 side, float half_length) {
+  Light light = spot;
+  light.shape = LightShape::wedge;
+  light.side = glm::normalize(side - glm::dot(side, spot.direction) * spot.direction);
+  light.half_length = half_length;
+  return light;
+}
+
+Light box(glm::dvec3 position, glm::vec3 direction, glm::vec3 side, glm::vec3 half_extents) {
+  Light light = omni(position, 1, glm::dot(half_extents, half_extents));
+  light.direction = glm::normalize(direction);
+  light.side = glm::normalize(side - glm::dot(side, light.direction) * light.direction);
+  make_box(light, half_extents);
+  return light;
+}
+
+Effects all_shapes(bool long_lists) {
+  return {.spots = true, .capsules = true, .wedges = true, .boxes = true, .long_lists = long_lists};
+}
+
+std::vector<Light> mixed_shapes(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest,
+                                float largest, uint32_t seed) {
+  std::vector<Light> lights = scattered(count, low, high, smallest, largest, seed, 1);
+  Random random(hash_u32(seed, 1));
+  auto size = [&](float radius) { return radius * std::pow(100.0f, random.uniform(-1, 0.5f)); };
+  for (uint32_t i = 0; i < count; ++i) {
+    Light& light = lights[i];
+    glm::vec3 side(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    if (glm::length(glm::cross(side, light.direction)) < 0.1f)
+      side = glm::vec3(light.direction.y, light.direction.z, -light.direction.x);
+    const float length = random.below(8) ? size(light.radius) : 0;
+    switch (static_cast<LightShape>(i % 5)) {
+      case LightShape::omni:
+        light = omni(light.position, light.radius, light.radius * light.radius);
+        break;
+      case LightShape::spot:
+        break;
+      case LightShape::capsule:
+        light = capsule(light.position, light.radius, side, length);
+        break;
+      case LightShape::wedge:
+        light = wedge(light, side, length);
+        break;
+      case LightShape::box:
+        light = box(light.position, light.direction, side,
+                    {size(light.radius), size(light.radius), size(light.radius)});
+    }
+  }
+  return lights;
+}
+
 std::vector<Light> scattered(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest, float largest,
                              uint32_t seed, uint32_t spot_every) {
   Random random(seed);

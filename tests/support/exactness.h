@@ -42,7 +42,6 @@ struct Seen {
 // parameters change freely.
 class Exactness {
  public:
-  // Two spot and specular variants of all programs are compiled at most.
   Exactness(const Scene& scene, uint32_t width, uint32_t height,
             const Effects& effects = {.spots = true, .long_lists = false});
   ~Exactness();
@@ -83,6 +82,16 @@ class Exactness {
 Light omni(glm::dvec3 position, float radius, float intensity = 1);
 // Angles in degrees, half-angles of the cone.
 Light spot(glm::dvec3 position, float radius, glm::vec3 direction, float inner_degrees, float outer_degrees);
+Light capsule(glm::dvec3 position, float radius, glm::vec3 side, float half_length);
+// `side` is made to stand across the direction.
+Light wedge(const Light& spot, glm::vec3 side, float half_length);
+Light box(glm::dvec3 position, glm::vec3 direction, glm::vec3 side, glm::vec3 half_extents);
+
+// All shapes are compiled in.
+Effects all_shapes(bool long_lists = false);
+// `count` lights like those of scattered(), shapes in turn.
+std::vector<Light> mixed_shapes(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest,
+                                float largest, uint32_t seed);
 // `count` lights, uniform in the box, radii log-uniform between the two; every `spot_every`-th is a spot (0:
 // none).
 std::vector<Light> scattered(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest, float largest,

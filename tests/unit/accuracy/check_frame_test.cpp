@@ -29,26 +29,39 @@ struct Frame {
   Frame() {
     Random random(8);
     std::vector<OracleLight> oracle_lights;
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 700; ++i) {
       LightRow row;
       row.position[0] = random.uniform(-20, 20), row.position[1] = random.uniform(-3, 1),
       row.position[2] = random.uniform(-30, -2);
       row.radius = random.uniform(0.5f, 6);
-      if (i % 3 == 0) {
-        row.shape = "spot";
+      static const char* const shapes[] = {"omni", "spot", "capsule", "wedge", "box"};
+      row.shape = shapes[i % 5];
+      const bool segment = i % 5 == 2 || i % 5 == 3, box = i % 5 == 4;
+      if (row.shape == "spot" || row.shape == "wedge") {
         float x = random.uniform(-0.5f, 0.5f), y = -std::sqrt(1 - x * x);
         row.direction[0] = x, row.direction[1] = y;
         row.cos_outer = random.uniform(0.3f, 0.95f);
         row.cone_scale = 2 / (1 - row.cos_outer), row.cone_offset = -row.cos_outer * row.cone_scale;
       }
+      if (segment || box) row.side[2] = random.below(2) ? 1 : -1;  // across the direction
+      if (segment) row.half_length = random.uniform(0, 4);
+      if (box) {
+        row.direction[0] = 0.6f, row.direction[1] = -0.8f;
+        for (float& extent : row.half_extents) extent = random.uniform(0.4f, 4);
+      }
       lights.push_back(row);
-      oracle_lights.push_back({.position = {row.position[0], row.position[1], row.position[2]},
-                               .radius = row.radius,
-                               .spot = row.shape == "spot",
-                               .direction = {row.direction[0], row.direction[1], row.direction[2]},
-                               .cone_scale = row.cone_scale,
-                               .cone_offset = row.cone_offset,
-                               .cos_outer = row.cos_outer});
+      oracle_lights.push_back(
+          {.position = {row.position[0], row.position[1], row.position[2]},
+           .radius = row.radius,
+           .spot = row.shape == "spot" || row.shape == "wedge",
+           .direction = {row.direction[0], row.direction[1], row.direction[2]},
+           .cone_scale = row.cone_scale,
+           .cone_offset = row.cone_offset,
+           .cos_outer = row.cos_outer,
+           .side = {row.side[0], row.side[1], row.side[2]},
+           .half_length = row.half_length,
+           .box = box,
+           .half_extents = {row.half_extents[0], row.half_extents[1], row.half_extents[2]}});
     }
     for (uint32_t y = height / 3; y < height; ++y) {
       for (uint32_t x = 0; x < width; ++x) {
@@ -125,6 +138,19 @@ TEST_F(CheckFrame, SeesEveryKindOfLie) {
       {"lights that moved",
        [](Frame& f) {
          for (LightRow& row : f.lights) row.position[1] += 0.5f;
+       }},
+      {"a shape that is another",
+       [](Frame& f) {
+         for (LightRow& row : f.lights)
+           if (row.shape == "capsule") row.shape = "box";
+       }},
+      {"segments that are longer",
+       [](Frame& f) {
+         for (LightRow& row : f.lights) row.half_length *= 1.5f;
+       }},
+      {"boxes that are larger",
+       [](Frame& f) {
+         for (LightRow& row : f.lights) row.half_extents[2] *= 1.5f;
        }},
   };
   for (const auto& [what, tell] : lies) {

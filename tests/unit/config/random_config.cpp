@@ -55,16 +55,17 @@ json light_value(const std::string& key) {
   if (key == "count") return integer(0, 65536);
   if (key == "sizing") return one_of({"const_overdraw", "fixed_size"});
   if (key == "radius_ratio") return real(1, 1000);
-  if (key == "spot_fraction") return real(0, 1);
+  if (key.ends_with("_fraction")) return real(0, 0.25);  // at most 1 together
   if (key == "intensity") return one_of({1e-9, 1e9, 0.3, real(1e-3, 1e3)});
   if (key == "seed") return seed();
   if (key == "animate") return one_of({"static", "drift", "spawn"});
   return length();  // base_size, radius, height
 }
 
-const std::vector<std::string> light_keys{"placement",    "count",  "sizing", "base_size",
-                                          "radius_ratio", "radius", "height", "spot_fraction",
-                                          "intensity",    "seed",   "animate"};
+const std::vector<std::string> light_keys{
+    "placement",    "count",     "sizing",        "base_size",        "radius_ratio",
+    "radius",       "height",    "spot_fraction", "capsule_fraction", "wedge_fraction",
+    "box_fraction", "intensity", "seed",          "animate"};
 
 json keyframes() {
   json keys = json::array();
@@ -152,7 +153,9 @@ json random_config() {
     config["outputs"] = {{"images", {frames - 1}}, {"trace", now()}};
     if (now()) config["outputs"]["heatmaps"] = json::array();
   }
-  if (now()) config["effects"] = {{one_of({"spots", "specular", "alpha_mask"}), one_of({"auto", "off"})}};
+  if (now())
+    config["effects"] = {{one_of({"spots", "capsules", "wedges", "boxes", "specular", "alpha_mask"}),
+                          one_of({"auto", "off"})}};
   if (now()) {
     json sweep = json::object();
     if (now()) sweep["lights.count"] = values(integer(1, 4), true, [] { return light_value("count"); });

@@ -65,14 +65,15 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
     "name": "every", "description": "x",
     "scene": {"gltf": "sub/../a.glb", "scene": 2, "seed": 7, "offset": [1, -2.5, 1e6]},
     "lights": {"placement": "area", "count": 9, "sizing": "fixed_size", "base_size": 0.25, "radius_ratio": 24, "radius": 3,
-               "height": 2, "spot_fraction": 0.5, "intensity": 2, "seed": 4, "animate": "spawn"},
+               "height": 2, "spot_fraction": 0.5, "capsule_fraction": 0.125, "wedge_fraction": 0.25,
+               "box_fraction": 0.0625, "intensity": 2, "seed": 4, "animate": "spawn"},
     "camera": {"frames": 3, "keyframes": [{"time": 0, "position": [1, 2, 3], "target": [4, 5, 6]},
                                           {"time": 2.5, "position": [7, 8, 9], "target": [0, 0, 1]}]},
     "resolution": [17, 1],
     "algorithms": [{"name": "clustered", "tile": 32, "zmin": 2, "refinement": true, "light_data": "duplicated"}, "brute_force"],
     "measure": {"warmup": 0, "repeats": 5, "threads": 2, "seed": 9, "mode": "whole"},
     "outputs": {"heatmaps": [2, 0], "images": [1], "trace": false},
-    "effects": {"spots": "off", "specular": "auto", "alpha_mask": "off"}})");
+    "effects": {"spots": "off", "capsules": "off", "wedges": "auto", "boxes": "off", "specular": "auto", "alpha_mask": "off"}})");
   EXPECT_EQ(config.name, "every");
   const ml::Setup& setup = config.setups.at(0);
   EXPECT_EQ(setup.scene.gltf, "/levels/a.glb");
@@ -90,6 +91,9 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
   EXPECT_EQ(lights.radius, 3);
   EXPECT_EQ(lights.height, 2);
   EXPECT_EQ(lights.spot_fraction, 0.5f);
+  EXPECT_EQ(lights.capsule_fraction, 0.125f);
+  EXPECT_EQ(lights.wedge_fraction, 0.25f);
+  EXPECT_EQ(lights.box_fraction, 0.0625f);
   EXPECT_EQ(lights.intensity, 2);
   EXPECT_EQ(lights.seed, 4u);
   EXPECT_EQ(lights.script, LightScript::spawn);
@@ -115,8 +119,36 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
   EXPECT_EQ(config.outputs.images, (std::vector<uint32_t>{1}));
   EXPECT_FALSE(config.outputs.trace);
   EXPECT_FALSE(setup.effects.spots);
+  EXPECT_FALSE(setup.effects.capsules);
+  EXPECT_TRUE(setup.effects.wedges);
+  EXPECT_FALSE(setup.effects.boxes);
   EXPECT_TRUE(setup.effects.specular);
   EXPECT_FALSE(setup.effects.alpha_mask);
+}
+
+TEST(ConfigReading, SharesOfTheShapesAddUpToOneAtMost) {
+  EXPECT_NO_THROW(parse(R"({"lights": {"spot_fraction": 0.1, "capsule_fraction": 0.2, "wedge_fraction": 0.3,
+                                       "box_fraction": 0.4}})"));
+  // At one point of a sweep, too.
+  auto message = [](const char* text) -> std::string {
+    try {
+      parse(text);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  for (const char* text :
+       {R"({"lights": {"spot_fraction": 0.5, "box_fraction": 0.75}})",
+        R"({"lights": {"spot_fraction": 0.5}, "sweep": {"lights.box_fraction": [0, 0.75]}})"}) {
+    const std::string found = message(text);
+    EXPECT_NE(
+        found.find("$.lights: spot_fraction, capsule_fraction, wedge_fraction and box_fraction add up to "
+                   "1.25, expected at most 1"),
+        found.npos)
+        << found;
+    EXPECT_EQ(found.find('\n'), found.npos);
+  }
 }
 
 TEST(ConfigReading, ParameterListsMakeOneEntryPerValue) {

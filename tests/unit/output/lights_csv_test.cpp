@@ -27,8 +27,11 @@ std::vector<LightRow> random_lights(size_t count) {
     for (float& value : light.intensity) value = finite();
     for (float& value : light.direction) value = finite();
     light.radius = finite(), light.cone_scale = finite(), light.cone_offset = finite(),
-    light.cos_outer = finite();
-    light.shape = random.below(2) ? "spot" : "omni";
+    light.cos_outer = finite(), light.half_length = finite();
+    for (float& value : light.side) value = finite();
+    for (float& value : light.half_extents) value = finite();
+    static const char* const shapes[] = {"omni", "spot", "capsule", "wedge", "box"};
+    light.shape = shapes[random.below(5)];
   }
   return lights;
 }
@@ -38,7 +41,8 @@ bool same(const LightRow& a, const LightRow& b) {
          std::memcmp(a.intensity, b.intensity, sizeof a.intensity) == 0 &&
          std::memcmp(a.direction, b.direction, sizeof a.direction) == 0 && a.radius == b.radius &&
          a.cone_scale == b.cone_scale && a.cone_offset == b.cone_offset && a.cos_outer == b.cos_outer &&
-         a.shape == b.shape;
+         std::memcmp(a.side, b.side, sizeof a.side) == 0 && a.half_length == b.half_length &&
+         std::memcmp(a.half_extents, b.half_extents, sizeof a.half_extents) == 0 && a.shape == b.shape;
 }
 
 TEST(LightsCsv, EveryFloatComesBackBitForBit) {
@@ -67,11 +71,12 @@ TEST(LightsCsv, ErrorsNameFileAndLine) {
     write_file(folder / "bad.csv", text);
     return message_of<UsageError>([&] { read_lights_csv(folder / "bad.csv"); });
   };
-  std::string missing_column = good, bad_number = good, bad_index = good;
+  std::string missing_column = good, bad_number = good, bad_index = good, bad_shape = good;
   missing_column.erase(third_line, 2);
   bad_number[good.find(',', third_line) + 1] = 'x';
   bad_index[third_line] = '7';
-  for (const std::string& text : {missing_column, bad_number, bad_index}) {
+  bad_shape.insert(good.find_first_of("oscwb", third_line), "x");
+  for (const std::string& text : {missing_column, bad_number, bad_index, bad_shape}) {
     std::string found = message(text);
     EXPECT_TRUE(contains(found, "bad.csv: line 3: ")) << found;
   }

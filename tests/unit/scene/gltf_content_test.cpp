@@ -1,4 +1,4 @@
-// Materials, textures, lights, cameras and external files.
+// Materials, textures, cameras and external files.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -159,68 +159,6 @@ TEST(GltfMaterial, TextureTransformMovesCoordinates) {
   Scene scene = file.load();
   const glm::vec2 expected[] = {{10, 18}, {11, 20}, {10.5f, 19}};
   for (size_t i = 0; i < 3; ++i) EXPECT_LT(glm::length(scene.vertices[i].uv - expected[i]), 1e-5f) << i;
-}
-
-GltfTestFile lit_file(const Json& light, const Json& node) {
-  GltfTestFile file = triangle_file();
-  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
-  file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({light});
-  Json placed = node;
-  placed["extensions"]["KHR_lights_punctual"]["light"] = 0;
-  file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
-  file.json["nodes"].push_back(placed);
-  return file;
-}
-
-TEST(GltfLight, PointWithRange) {
-  Scene scene = lit_file({{"type", "point"}, {"color", {1, 0.5, 0}}, {"intensity", 8}, {"range", 3}},
-                         {{"translation", {1, 2, 3}}, {"scale", {5, 5, 5}}})
-                    .load();
-  ASSERT_EQ(scene.lights.size(), 1u);
-  const Light& light = scene.lights[0];
-  EXPECT_EQ(light.shape, LightShape::omni);
-  EXPECT_EQ(light.position + scene.origin, dvec3(1, 2, 3));
-  EXPECT_EQ(light.intensity, glm::vec3(8, 4, 0));
-  EXPECT_EQ(light.radius, 3.0f);  // a node's scale leaves the range alone
-}
-
-TEST(GltfLight, SpotPointsAlongItsNode) {
-  double h = std::sqrt(0.5);
-  Scene scene =
-      lit_file(
-          {{"type", "spot"}, {"range", 9}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
-          {{"rotation", {-h, 0, 0, h}}})
-          .load();  // -z turned down
-  const Light& light = scene.lights.at(0);
-  EXPECT_EQ(light.shape, LightShape::spot);
-  EXPECT_LT(glm::length(light.direction - glm::vec3(0, -1, 0)), 1e-6f);
-  EXPECT_EQ(light.inner_angle, 0.25f);
-  EXPECT_EQ(light.outer_angle, 0.5f);
-  Scene defaults =
-      lit_file({{"type", "spot"}, {"range", 9}, {"spot", Json::object()}}, Json::object()).load();
-  EXPECT_EQ(defaults.lights[0].inner_angle, 0.0f);
-  EXPECT_FLOAT_EQ(defaults.lights[0].outer_angle, 0.78539816f);
-}
-
-TEST(GltfLight, WithoutRangeItEndsWhereItIsDim) {
-  // 0.01 W/m^2 lie at 10 * sqrt(I) m; the level's diagonal of 5.66 m caps it.
-  Scene dim = lit_file({{"type", "point"}, {"intensity", 0.04}}, Json::object()).load();
-  EXPECT_FLOAT_EQ(dim.lights[0].radius, 2.0f);
-  Scene bright = lit_file({{"type", "point"}, {"intensity", 1e9}}, Json::object()).load();
-  EXPECT_FLOAT_EQ(bright.lights[0].radius, std::sqrt(32.0f));
-  EXPECT_EQ(bright.notes.back(), "1 lights have no range, and end where they give 0.01 W/m^2");
-}
-
-TEST(GltfLight, UnusableOnesAreLeftToTheLightSet) {
-  Scene scene = lit_file({{"type", "point"}, {"intensity", -1}, {"range", 0}}, Json::object()).load();
-  ASSERT_EQ(scene.lights.size(), 1u);
-  EXPECT_EQ(scene.lights[0].radius, 0.0f);
-}
-
-TEST(GltfLight, DirectionalIsNoted) {
-  Scene scene = lit_file({{"type", "directional"}}, Json::object()).load();
-  EXPECT_TRUE(scene.lights.empty());
-  EXPECT_EQ(scene.notes.back(), "1 directional lights are ignored");
 }
 
 TEST(GltfCamera, StillPerspective) {

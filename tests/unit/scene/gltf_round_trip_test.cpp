@@ -83,10 +83,15 @@ std::vector<Light> many_lights(uint32_t count) {
                       double{random.uniform(-70, 70)}};
     light.radius = random.uniform(0.1f, 30);
     light.intensity = {random.uniform(0, 100), random.uniform(0, 1e-3f), random.uniform(0, 1)};
-    if (random.below(3) == 0) continue;
-    light.shape = LightShape::spot;
-    light.direction =
-        glm::normalize(glm::vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+    light.shape = static_cast<LightShape>(random.below(5));
+    auto any = [&] {
+      return glm::normalize(glm::vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+    };
+    light.direction = any();
+    light.side = glm::normalize(glm::cross(light.direction, any()));
+    if (has_segment(light.shape)) light.half_length = random.below(4) ? random.uniform(0, 9) : 0;
+    if (light.shape == LightShape::box)
+      make_box(light, {random.uniform(0.01f, 5), random.uniform(0.01f, 5), random.uniform(0.01f, 5)});
     light.outer_angle = random.uniform(0.01f, 3.14f);
     light.inner_angle = random.below(4) == 0 ? light.outer_angle : light.outer_angle * random.uniform();
   }
@@ -100,10 +105,18 @@ void expect_same_lights(const std::vector<Light>& a, const std::vector<Light>& b
     EXPECT_EQ(a[i].radius, b[i].radius) << i;
     EXPECT_EQ(a[i].intensity, b[i].intensity) << i;
     EXPECT_EQ(a[i].shape, b[i].shape) << i;
-    if (a[i].shape == LightShape::omni) continue;
-    EXPECT_EQ(a[i].inner_angle, b[i].inner_angle) << i;
-    EXPECT_EQ(a[i].outer_angle, b[i].outer_angle) << i;
-    EXPECT_LE(glm::length(a[i].direction - b[i].direction), direction_tolerance) << i;
+    EXPECT_EQ(a[i].half_length, b[i].half_length) << i;
+    EXPECT_EQ(a[i].half_extents, b[i].half_extents) << i;
+    if (has_cone(a[i].shape)) {
+      EXPECT_EQ(a[i].inner_angle, b[i].inner_angle) << i;
+      EXPECT_EQ(a[i].outer_angle, b[i].outer_angle) << i;
+    }
+    if (has_cone(a[i].shape) || a[i].shape == LightShape::box) {
+      EXPECT_LE(glm::length(a[i].direction - b[i].direction), direction_tolerance) << i;
+    }
+    if (has_segment(a[i].shape) || a[i].shape == LightShape::box) {
+      EXPECT_LE(glm::length(a[i].side - b[i].side), direction_tolerance) << i;
+    }
   }
 }
 
@@ -218,7 +231,7 @@ TEST_F(GltfRoundTrip, LightsInTheFile) {
 TEST_F(GltfRoundTrip, LightsInTheSideFileKeepTheirBits) {
   std::vector<Light> lights = many_lights(4097);
   expect_same_lights(there_and_back(busy_scene(), lights).lights, lights, 0);
-  EXPECT_EQ(fs::file_size(file().string() + ".lights.bin"), 16u + 64u * 4097u);
+  EXPECT_EQ(fs::file_size(file().string() + ".lights.bin"), 16u + 92u * 4097u);
 }
 
 TEST_F(GltfRoundTrip, SideFileErrorsNameTheFile) {
@@ -238,17 +251,17 @@ TEST_F(GltfRoundTrip, SideFileErrorsNameTheFile) {
     return message();
   };
   EXPECT_EQ(with(good.substr(0, good.size() - 1)),
-            side.string() + ": header: 4097 lights take 262224 bytes, but the file has 262223");
+            side.string() + ": header: 4097 lights take 376940 bytes, but the file has 376939");
   EXPECT_EQ(with("MLLIGHT"), side.string() + ": not a light file: it does not begin with 'MLLIGHTS'");
   std::string bad = good;
-  bad[8] = 2;
-  EXPECT_EQ(with(bad), side.string() + ": header: expected version 1, found 2");
+  bad[8] = 3;
+  EXPECT_EQ(with(bad), side.string() + ": header: expected version 1 or 2, found 3");
   bad = good;
   bad[15] = 1;
   EXPECT_EQ(with(bad), side.string() + ": header: 16781313 lights, more than 1048576");
   bad = good;
-  bad[16 + 64 + 60] = 7;
-  EXPECT_EQ(with(bad), side.string() + ": lights[1]: shape 7, expected 0 or 1");
+  bad[16 + 92 + 60] = 7;
+  EXPECT_EQ(with(bad), side.string() + ": lights[1]: shape 7, expected 0 to 4");
   fs::remove(side);
   EXPECT_EQ(message(),
             file().string() + ": asset.extras.manylights.lights: " + side.string() + ": no such file");
@@ -260,6 +273,31 @@ TEST_F(GltfRoundTrip, SideFileErrorsNameTheFile) {
     EXPECT_STREQ(
         error.what(),
         "test.glb: asset.extras.manylights.lights: external files are refused here: 'level.glb.lights.bin'");
+  }
+}
+
+TEST_F(GltfRoundTrip, SideFilesOfVersionOneAreRead) {
+  // Version 1 had 64 bytes a light, up to its shape, and no shapes but omni and spot.
+  std::vector<Light> lights = many_lights(4097);
+  for (Light& light : lights) {
+    if (static_cast<uint32_t>(light.shape) > 1) light.shape = LightShape::spot;
+    light.half_length = 0, light.half_extents = glm::vec3(0), light.side = {1, 0, 0};
+  }
+  export_glb(busy_scene(), lights, file());
+  const fs::path side = file().string() + ".lights.bin";
+  const std::string now = read_text_file(side);
+  std::string old = now.substr(0, 16);
+  old[8] = 1;
+  for (size_t i = 0; i < lights.size(); ++i) old += now.substr(16 + 92 * i, 64);
+  write_file(side, old);
+  expect_same_lights(import_gltf(file(), -1, 1, glm::dvec3(0)).lights, lights, 0);
+  old[16 + 60] = 2;
+  write_file(side, old);
+  try {
+    import_gltf(file(), -1, 1, glm::dvec3(0));
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_EQ(error.what(), side.string() + ": lights[0]: shape 2, expected 0 to 1");
   }
 }
 

@@ -34,7 +34,8 @@ inline bool same_bits(const std::vector<Light>& a, const std::vector<Light>& b) 
   auto key = [](const Light& l) {
     return std::make_tuple(l.position.x, l.position.y, l.position.z, l.radius, l.intensity.x, l.intensity.y,
                            l.intensity.z, l.shape, l.direction.x, l.direction.y, l.direction.z, l.inner_angle,
-                           l.outer_angle);
+                           l.outer_angle, l.side.x, l.side.y, l.side.z, l.half_length, l.half_extents.x,
+                           l.half_extents.y, l.half_extents.z);
   };
   if (a.size() != b.size()) return false;
   for (size_t i = 0; i < a.size(); ++i) {
