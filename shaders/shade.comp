@@ -2,7 +2,7 @@
 //
 // The cursor provides:  struct LightCursor;  LightCursor light_begin(SurfacePoint);
 //                       bool light_next(inout LightCursor, out uint light, out float weight);
-// and may define
+// (`light` may be no_light: nothing found this time, ask again) and may define
 //   CURSOR_LIGHT(light)  when light data stands elsewhere than in lights[];
 //   CURSOR_RUNS          with light_cell(), cell_begin(), light_next_run() and run_light(): the pixels of a subgroup can then walk the lights of
 //                        a cell together (shade_together below);
@@ -45,6 +45,8 @@ uint count_listed = 0u, count_tested = 0u, count_contributing = 0u, count_nodes 
 #define COUNT_TRAVERSAL(c)
 #endif
 
+const uint no_light = 0xffffffffu;
+
 #include "light_cursor.glsl"
 
 #ifndef CURSOR_LIGHT
@@ -71,8 +73,10 @@ void add_light(SurfacePoint point, LightCore data, LightSample from, float weigh
 
 #define SHADE_NEXT(next_light)                                    \
   if (!next_light(cursor, light, weight)) break;                  \
-  data = CURSOR_LIGHT(light);                                     \
-  if (test_light(point, data, from)) add_light(point, data, from, weight, sum);
+  if (light != no_light) {                                        \
+    data = CURSOR_LIGHT(light);                                   \
+    if (test_light(point, data, from)) add_light(point, data, from, weight, sum); \
+  }
 // Every pixel first looks for its next light that contributes, then all shade theirs: so the costly part runs about as often as lights
 // contribute and not as often as they are tested, also where a processor runs its lanes in step. With long lists one loop does both.
 #define SHADE_LOOP(next_light)                                    \
@@ -88,6 +92,7 @@ void add_light(SurfacePoint point, LightCore data, LightSample from, float weigh
       bool found = false;                                         \
       while (!found) {                                            \
         if (!next_light(cursor, light, weight)) break;            \
+        if (light == no_light) continue;                          \
         data = CURSOR_LIGHT(light);                               \
         found = test_light(point, data, from);                    \
       }                                                           \
@@ -126,7 +131,10 @@ void main() {
 #ifdef CURSOR_RUNS
   if (WALK_TOGETHER) {
     const bool lit = inside && surface_load(pixel, point);
-    shade_together(point, lit, sum);
+    // With long lists a subgroup that lies in several cells would take too many turns: its pixels walk alone.
+    const bool together = !LONG_LISTS || in_one_cell(point, lit);
+    shade_together(point, lit && together, sum);
+    if (LONG_LISTS && lit && !together) shade_alone(point, sum);
   } else
 #endif
       if (inside && surface_load(pixel, point))

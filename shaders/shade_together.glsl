@@ -28,15 +28,16 @@ void add_lane(SurfacePoint point, LightCore own, inout uint contributing, inout 
 
 // Tests and shades the lights of one run for the pixels that want them. Each lane fetches one light, and hands it to the others when its turn
 // comes, so that a light is fetched once for all of them. Lights that contribute are remembered as bits, and shaded when the batch is tested: in
-// the order of the run, as everywhere. No lane leaves before all are done, for none may be missing in a shuffle. Several lights a turn: loops
-// are short of turns on some drivers (light_eval.glsl, LONG_LISTS).
+// the order of the run, as everywhere. `count` is not 0. No lane leaves before all are done, for none may be missing in a shuffle. Several lights a turn, and
+// loops that end where they have run: turns are short on some drivers (light_eval.glsl, LONG_LISTS).
 void shade_run(SurfacePoint point, uint first, uint count, bool wanted, inout VEC3 sum) {
   const uint lanes = min(gl_SubgroupSize, 32u);
-  for (uint begin = 0u; begin < count; begin += lanes) {
+  uint begin = 0u;
+  do {
     const uint batch = min(count - begin, lanes);
     const LightCore own = CURSOR_LIGHT(run_light(first + begin + min(gl_SubgroupInvocationID, batch - 1u)));
-    uint contributing = 0u;
-    for (uint i = 0u; i < batch; i += LONG_LISTS ? 8u : 4u) {
+    uint contributing = 0u, i = 0u;
+    do {
       test_lane(point, own, i, batch, wanted, contributing);
       test_lane(point, own, i + 1u, batch, wanted, contributing);
       test_lane(point, own, i + 2u, batch, wanted, contributing);
@@ -47,16 +48,24 @@ void shade_run(SurfacePoint point, uint first, uint count, bool wanted, inout VE
         test_lane(point, own, i + 6u, batch, wanted, contributing);
         test_lane(point, own, i + 7u, batch, wanted, contributing);
       }
+      i += LONG_LISTS ? 8u : 4u;
+    } while (i < batch);
+    if (subgroupAny(contributing != 0u)) {
+      do {
+        add_lane(point, own, contributing, sum);
+        if (LONG_LISTS) {
+          add_lane(point, own, contributing, sum);
+          add_lane(point, own, contributing, sum);
+          add_lane(point, own, contributing, sum);
+          add_lane(point, own, contributing, sum);
+          add_lane(point, own, contributing, sum);
+          add_lane(point, own, contributing, sum);
+          add_lane(point, own, contributing, sum);
+        }
+      } while (subgroupAny(contributing != 0u));
     }
-    while (subgroupAny(contributing != 0u)) {
-      add_lane(point, own, contributing, sum);
-      if (LONG_LISTS) {
-        add_lane(point, own, contributing, sum);
-        add_lane(point, own, contributing, sum);
-        add_lane(point, own, contributing, sum);
-      }
-    }
-  }
+    begin += lanes;
+  } while (begin < count);
 }
 
 // The pixels that lie in one cell walk it together, one cell after the other. `lit`: false for lanes that only help.
@@ -73,6 +82,11 @@ void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
     bool wanted;
     while (light_next_run(cursor, here, first, count, wanted)) shade_run(point, first, count, wanted, sum);
   }
+}
+
+bool in_one_cell(SurfacePoint point, bool lit) {
+  const uint cell = lit ? light_cell(point) : 0xffffffffu;
+  return subgroupAll(!lit || cell == subgroupMin(cell));
 }
 
 #endif

@@ -32,10 +32,11 @@ bool light_next_in_list(inout LightCursor cursor, out uint light, out float weig
 // In shared memory the cursor's node and end count from the subgroup's first shared node.
 bool light_next_shared(inout LightCursor cursor, out uint light, out float weight) {
   weight = 1.0;
-  light = 0u;
-  while (cursor.next == cursor.last) {
+  light = no_light;
+  if (cursor.next == cursor.last) {
     if (cursor.node >= cursor.end) return false;
     tree_step(cursor, shared_nodes[cursor.node]);
+    if (cursor.next == cursor.last) return true;
   }
   light = tree_lights[cursor.next++];
   return true;

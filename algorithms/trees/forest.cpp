@@ -50,6 +50,11 @@ uint32_t depth_first_place(uint32_t height, uint32_t level, uint32_t index) {
   return level + (index << (height - level + 1)) - static_cast<uint32_t>(std::popcount(index));
 }
 
+uint32_t leaf_size(uint32_t asked, uint32_t lights) {
+  if (lights <= asked * ML_TREE_MAX_LEAVES) return asked;
+  return (lights + 8 * ML_TREE_MAX_LEAVES - 1) / (8 * ML_TREE_MAX_LEAVES) * 8;
+}
+
 void cell_depth_extents(const FroxelGrid& grid, std::vector<FroxelGrid::DepthRange>& extents) {
   grid.slice_ranges(extents);
   extents.front().low = grid.near;
@@ -116,8 +121,7 @@ void Forest::build_chunk(const FroxelLists& lists, const ForestSettings& setting
     const uint32_t first = offsets[cell], lights = offsets[cell + 1] - first;
     if (lights == 0) continue;
     const auto ranks = entries.subspan(first, lights);
-    const uint32_t per_leaf =
-        std::max(settings.lights_per_leaf, (lights + ML_TREE_MAX_LEAVES - 1) / ML_TREE_MAX_LEAVES);
+    const uint32_t per_leaf = leaf_size(settings.lights_per_leaf, lights);
     bool tree = lights > per_leaf;
     if (tree && settings.threshold < infinity) {
       const FroxelGrid::DepthRange extent = cell_depths_[slice];

@@ -55,6 +55,9 @@ class Forest {
   uint64_t list_cells_ = 0, tree_cells_ = 0;
 };
 
+// Lights in a leaf of a tree over `lights` lights: as asked, or as many as the largest tree needs, in eights.
+uint32_t leaf_size(uint32_t asked, uint32_t lights);
+
 // Depth extents (m) of a cell of each slice, as listing 2 takes them: from the near plane to the far depth,
 // whatever lies beyond in the last slice.
 void cell_depth_extents(const FroxelGrid& grid, std::vector<FroxelGrid::DepthRange>& extents);

@@ -75,8 +75,7 @@ void ReferenceForest::build(const ReferenceLists& lists, const ForestSettings& s
   nodes_.clear();
   for (uint32_t cell = 0; cell < cells; ++cell) {
     const uint32_t begin = lists.offsets()[cell], count = lists.offsets()[cell + 1] - begin;
-    const uint32_t per_leaf =
-        std::max(settings.lights_per_leaf, (count + ML_TREE_MAX_LEAVES - 1) / ML_TREE_MAX_LEAVES);
+    const uint32_t per_leaf = leaf_size(settings.lights_per_leaf, count);
     if (count > per_leaf && wants_tree(lists, cell, settings.threshold)) {
       build_tree(lists, cell, per_leaf, settings.trim_padding);
     } else {

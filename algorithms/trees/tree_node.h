@@ -24,7 +24,7 @@ ML_SIZE(TreeNode, 16);
 // leaves; a walk of so many nodes takes longer than some drivers let a shader loop (shaders/light_eval.glsl),
 // so trees that large get larger leaves instead.
 #define ML_TREE_MAX_LEAF_LIGHTS 65535u
-#define ML_TREE_MAX_LEAVES 4096u
+#define ML_TREE_MAX_LEAVES 2048u
 
 ML_FUNCTION bool tree_is_leaf(TreeNode node) {
   return (node.packed & ML_TREE_LEAF) != 0u;

@@ -61,7 +61,7 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
 std::vector<ParameterInfo> tree_parameters() {
   return {
       ParameterInfo::integer("lights_per_leaf", 8, 1, 64,
-                             "lights in a leaf; raised where a tree would have more than 4096 leaves"),
+                             "lights in a leaf; raised where a tree would have more than 2048 leaves"),
       ParameterInfo::boolean("trim_padding", true, "leave out the nodes behind a tree's last light"),
   };
 }

@@ -54,13 +54,15 @@ void tree_step(inout LightCursor cursor, TreeNode node) {
   }
 }
 
-// Lights of the leaf that is walked, from there on to the end of the tree.
+// A light of the leaf that is walked; at a leaf's end takes one node, which may lead to no light. No loop: a loop's turns would add to those of
+// the caller's (shaders/light_eval.glsl, LONG_LISTS).
 bool tree_next(inout LightCursor cursor, out uint light, out float weight) {
   weight = 1.0;
-  light = 0u;
-  while (cursor.next == cursor.last) {
+  light = no_light;
+  if (cursor.next == cursor.last) {
     if (cursor.node >= cursor.end) return false;
     tree_step(cursor, tree_nodes[cursor.node]);
+    if (cursor.next == cursor.last) return true;
   }
   light = tree_lights[cursor.next++];
   return true;

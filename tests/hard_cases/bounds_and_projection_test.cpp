@@ -59,7 +59,7 @@ TEST_F(HardCases, Case04_LightInsideOneFroxel) {
   Exactness check(yard(), width, height);
   std::vector<Light> lights;
   for (int i = 0; i < 400; ++i) lights.push_back(omni({-10 + 0.05 * i, 0.01, 9 - 0.03 * i}, 0.05f));
-  std::vector<ClusteredSettings> settings = usual_settings();
+  std::vector<GridSettings> settings = usual_settings();
   settings.push_back({.tile = 1024, .slices = 1});
   settings.push_back({.tile = 1024, .slices = 1, .refinement = true});
   check.expect_exact(yard_camera(), lights, settings);
@@ -82,7 +82,7 @@ TEST_F(HardCases, Case05_LightsAtTheBordersOfThePicture) {
           for (float radius : {0.02f, 0.1f}) lights.push_back(omni(place, radius * depth));
         }
       }
-  std::vector<ClusteredSettings> settings = usual_settings();
+  std::vector<GridSettings> settings = usual_settings();
   settings.push_back({.tile = 97});
   settings.push_back({.tile = 96, .refinement = true});
   check.expect_exact(camera, lights, settings);
@@ -132,7 +132,7 @@ TEST_F(HardCases, Case10_TinyNearAndHugeFar) {
   std::vector<Light> lights = scattered(200, {-30, -1, -40}, {30, 12, 14}, 0.2f, 12, 10);
   for (glm::vec2 range :
        {glm::vec2(1e-6f, 1e9f), glm::vec2(1e-4f, 1e3f), glm::vec2(3, 3.001f), glm::vec2(12, 1e30f)}) {
-    std::vector<ClusteredSettings> settings = usual_settings();
+    std::vector<GridSettings> settings = usual_settings();
     settings.push_back({.slices = 256, .zmin = 0.01});
     settings.push_back({.zmin = 100, .zmax = 100.001});
     check.expect_exact(camera_at({0, 3, 14}, {0, 1, -10}, width, height, range.x, range.y), lights, settings,
@@ -144,7 +144,7 @@ TEST_F(HardCases, Case11_LightsAndSurfacesBeyondTheGrid) {
   Exactness check(yard(), width, height);
   std::vector<Light> lights = scattered(300, {-60, -1, -180}, {60, 8, 10}, 0.5f, 15, 11);
   for (double zmax : {6.0, 12.0, 30.0}) {
-    std::vector<ClusteredSettings> settings;
+    std::vector<GridSettings> settings;
     for (int64_t slices : {1, 2, 16, 64})
       for (bool refinement : {false, true})
         settings.push_back({.tile = 16, .slices = slices, .zmin = 5, .zmax = zmax, .refinement = refinement});
@@ -157,7 +157,7 @@ TEST_F(HardCases, Case12_NothingIsUnlitBetweenNearAndTheFirstSlice) {
   Exactness check(yard(), width, height);
   const Camera camera = camera_at({0, 0.3, 14}, {0, 0.05, 13.6}, width, height, 0.01f);
   std::vector<Light> lights = scattered(60, {-1, 0, 12}, {1, 0.4, 14.5}, 0.1f, 2, 12);
-  std::vector<ClusteredSettings> settings;
+  std::vector<GridSettings> settings;
   for (double zmin : {0.01, 0.1, 1.0, 1000.0})
     for (bool refinement : {false, true})
       settings.push_back({.tile = 8, .zmin = zmin, .refinement = refinement});

@@ -59,7 +59,7 @@ TEST_F(HardCases, Case30_SmallLightThreeKilometresAway) {
   for (int i = 0; i < 9; ++i) lights.push_back(omni({-2.0 + 0.5 * i, 3, -3000.2}, 1));
   Camera far = Camera::look_at({0, 3, 0}, {0, 3, -3000},
                                Projection::perspective(0.1f * degrees, 16.0f / 9, 0.1f, 5000));
-  std::vector<ClusteredSettings> settings = usual_settings();
+  std::vector<GridSettings> settings = usual_settings();
   settings.push_back({.slices = 256, .zmax = 5000, .refinement = true});
   Seen seen = check.expect_exact(far, lights, settings);
   EXPECT_GT(seen.contributing(), 0u) << "the lights are before the wall";
@@ -81,7 +81,7 @@ TEST_F(HardCases, Case31_LightsThatTouchABoundary) {
       lights.push_back(omni({edge, edge, -5.5}, radius));
       lights.push_back(omni({edge, 0, -6 + static_cast<double>(radius)}, radius));
     }
-  std::vector<ClusteredSettings> settings;
+  std::vector<GridSettings> settings;
   // The wall lies exactly at the end of the near slice, of another slice, and of the grid.
   for (glm::dvec2 range :
        {glm::dvec2(6, 500), glm::dvec2(1.5, 96), glm::dvec2(1, 6), glm::dvec2(5.9999995, 6.0000005)})

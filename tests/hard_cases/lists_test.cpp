@@ -18,11 +18,11 @@ TEST_F(HardCases, Case40_FramesAfterAFrameWithMoreLights) {
   // As if the large frame had never been; and none at all after it.
   Seen after = check.expect_exact(camera, few);
   EXPECT_EQ(compare_images(after.image, before.image).differing_bits, 0u);
-  for (size_t i = 0; i < before.clustered.size(); ++i)
-    EXPECT_EQ(before.clustered[i].listed, after.clustered[i].listed);
+  for (size_t i = 0; i < before.counts.size(); ++i)
+    EXPECT_EQ(before.counts[i].listed, after.counts[i].listed);
   Seen none = check.expect_exact(camera, {});
   EXPECT_EQ(none.contributing(), 0u);
-  for (const PixelCounts& counts : none.clustered)
+  for (const PixelCounts& counts : none.counts)
     for (uint32_t listed : counts.listed) ASSERT_EQ(listed, 0u);
   // The camera turns away from all lights, and back.
   check.expect_exact(camera_at({0, 3, 14}, {0, 1, 40}, width, height), many);

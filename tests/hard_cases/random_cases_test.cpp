@@ -1,5 +1,5 @@
-// Random cameras, lights and parameters: clustered evaluates exactly the lights of brute force, at every
-// pixel of every case.
+// Random cameras, lights, algorithms and parameters: exactly the lights of brute force are evaluated, at
+// every pixel of every case.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -57,18 +57,6 @@ std::vector<Light> random_lights(Random& random, const Camera& camera) {
   return lights;
 }
 
-ClusteredSettings random_settings(Random& random) {
-  ClusteredSettings settings;
-  settings.tile = 4 + random.below(random.below(2) ? 30 : 120);
-  const int64_t slices[] = {1, 2, 3, 7, 16, 32, 64, 256};
-  settings.slices = slices[random.below(8)];
-  settings.zmin = static_cast<double>(log_uniform(random, 0.01f, 200));
-  if (random.below(2)) settings.zmax = settings.zmin + static_cast<double>(log_uniform(random, 0.01f, 1e3f));
-  settings.refinement = random.below(2) == 0;
-  settings.duplicated = random.below(3) == 0;
-  return settings;
-}
-
 void expect_random_cases(uint32_t width, uint32_t height, uint32_t cases, uint32_t seed) {
   Exactness check(yard(), width, height, all_shapes());
   uint64_t contributing = 0;
@@ -77,8 +65,11 @@ void expect_random_cases(uint32_t width, uint32_t height, uint32_t cases, uint32
     Random random(hash_u32(seed, number));
     const Camera camera = random_camera(random, width, height);
     const std::vector<Light> lights = random_lights(random, camera);
-    contributing += check.expect_exact(camera, lights, {random_settings(random), random_settings(random)}, 0)
-                        .contributing();
+    contributing +=
+        check
+            .expect_trials(camera, lights,
+                           {random_trial(random, width, height), random_trial(random, width, height)}, 0)
+            .contributing();
   }
   EXPECT_GT(contributing, uint64_t{cases} * width * height / 20)
       << "the cases are too empty to mean anything";

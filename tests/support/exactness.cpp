@@ -39,16 +39,44 @@ const AlgorithmEntry& entry_of(const std::string& name) {
   return find_algorithm(name, "test");
 }
 
-Parameters parameters_of(const ClusteredSettings& settings) {
-  const std::vector<ParameterInfo>& infos = entry_of("clustered").parameters;
-  Parameters parameters(infos);
-  parameters.set(infos, "tile", settings.tile, "test");
-  parameters.set(infos, "slices", settings.slices, "test");
-  parameters.set(infos, "zmin", settings.zmin, "test");
-  parameters.set(infos, "zmax", settings.zmax, "test");
-  parameters.set(infos, "refinement", settings.refinement, "test");
-  parameters.set(infos, "light_data", std::string(settings.duplicated ? "duplicated" : "indexed"), "test");
-  return parameters;
+// The algorithm's parameters that the grid has a word for; the others at their defaults.
+Trial trial_of(const std::string& algorithm, const GridSettings& grid, bool alone) {
+  const std::vector<ParameterInfo>& infos = entry_of(algorithm).parameters;
+  Trial trial{algorithm, Parameters(infos)};
+  const std::pair<const char*, ParameterValue> values[] = {
+      {"tile", grid.tile},
+      {"slices", grid.slices},
+      {"zmin", grid.zmin},
+      {"zmax", grid.zmax},
+      {"refinement", grid.refinement},
+      {"light_data", std::string(grid.duplicated ? "duplicated" : "indexed")},
+      {"walk", std::string(alone ? "pixel" : "subgroup")},
+  };
+  for (const auto& [name, value] : values)
+    if (trial.parameters.values().contains(name)) trial.parameters.set(infos, name, value, "test");
+  return trial;
+}
+
+// Exact algorithms that are tried beside clustered.
+std::vector<std::string> others() {
+  std::vector<std::string> names;
+  for (const AlgorithmEntry& entry : algorithm_registry())
+    if (entry.info.exact && !entry.info.reference_only && !entry.info.needs_contributing_lists &&
+        entry.info.name != "clustered")
+      names.push_back(entry.info.name);
+  return names;
+}
+
+ParameterValue random_value(const ParameterInfo& info, Random& random) {
+  if (!info.choices.empty()) return info.choices[random.below(static_cast<uint32_t>(info.choices.size()))];
+  if (std::holds_alternative<bool>(info.fallback)) return random.below(2) == 0;
+  // Small values as often as large ones; the ends of the range, and 0, now and then.
+  const double low = std::max(info.minimum, 1e-3), high = info.maximum;
+  double value = low * std::pow(high / low, static_cast<double>(random.uniform()));
+  if (random.below(10) == 0) value = info.minimum;
+  if (random.below(20) == 0) value = info.maximum;
+  if (std::holds_alternative<double>(info.fallback)) return std::clamp(value, info.minimum, info.maximum);
+  return static_cast<int64_t>(std::clamp(std::round(value), info.minimum, info.maximum));
 }
 
 double floor_of(const Picture& picture) {
@@ -74,12 +102,38 @@ void expect_same_image(const Picture& image, const Picture& reference, double fl
 
 }  // namespace
 
-std::string ClusteredSettings::text() const {
-  return fmt::format("clustered tile {} slices {} zmin {} zmax {}{}{}", tile, slices, zmin, zmax,
-                     refinement ? " refined" : "", duplicated ? " duplicated" : "");
+std::string Trial::text() const {
+  std::string text = algorithm;
+  for (const auto& [name, value] : parameters.values())
+    std::visit([&, &name = name](const auto& word) { text += fmt::format(" {}={}", name, word); }, value);
+  return text;
 }
 
-std::vector<ClusteredSettings> usual_settings() {
+std::vector<Trial> trials_of(const std::vector<GridSettings>& grids) {
+  static const std::vector<std::string> other = others();
+  std::vector<Trial> trials;
+  for (size_t i = 0; i < grids.size(); ++i) {
+    trials.push_back(trial_of("clustered", grids[i], i % 2 == 1));
+    trials.push_back(trial_of(other[i % other.size()], grids[i], i / other.size() % 2 == 1));
+  }
+  return trials;
+}
+
+Trial random_trial(Random& random, uint32_t width, uint32_t height) {
+  static const std::vector<std::string> other = others();
+  const uint32_t pick = random.below(static_cast<uint32_t>(other.size()) + 1);
+  Trial trial{pick == other.size() ? "clustered" : other[pick], {}};
+  const AlgorithmEntry& entry = entry_of(trial.algorithm);
+  do {
+    trial.parameters = Parameters(entry.parameters);
+    for (const ParameterInfo& info : entry.parameters)
+      if (random.below(3) != 0)
+        trial.parameters.set(entry.parameters, info.name, random_value(info, random), "test");
+  } while (entry.check && !entry.check(trial.parameters, width, height).empty());
+  return trial;
+}
+
+std::vector<GridSettings> usual_settings() {
   return {{.refinement = false, .duplicated = false},
           {.tile = 16, .refinement = true},
           {.tile = 7, .slices = 64, .zmin = 0.5, .duplicated = true},
@@ -104,24 +158,29 @@ Exactness::Exactness(const Scene& scene, uint32_t width, uint32_t height, const 
 
 Exactness::~Exactness() = default;
 
-Exactness::Slot& Exactness::clustered(const ClusteredSettings& settings) {
-  Slot& slot = slots_[settings.duplicated];
-  const AlgorithmEntry& real = entry_of("clustered");
+Exactness::Slot& Exactness::slot_of(const Trial& trial) {
+  const AlgorithmEntry& real = entry_of(trial.algorithm);
+  std::unique_ptr<Algorithm> made = real.create(trial.parameters);
+  std::string key = trial.algorithm + (made->walks_together() ? " together" : "");
+  for (uint32_t constant : made->shade_constants()) key += fmt::format(" {}", constant);
+  Slot& slot = slots_[key];
   if (!slot.shaded) {
-    slot.inner = std::make_shared<std::unique_ptr<Algorithm>>(real.create(parameters_of(settings)));
+    slot.inner = std::make_shared<std::unique_ptr<Algorithm>>(std::move(made));
     slot.entry = real;
     slot.entry.create = [inner = slot.inner](const Parameters&) {
       return std::make_unique<Replaceable>(inner);
     };
     slot.shaded = std::make_unique<ShadedAlgorithm>(device(), slot.entry, Parameters(real.parameters),
                                                     frame_.effects());
+  } else {
+    made->create_gpu(device());
+    *slot.inner = std::move(made);
   }
-  *slot.inner = real.create(parameters_of(settings));
   return slot;
 }
 
-Seen Exactness::expect_exact(const Camera& camera, const std::vector<Light>& lights,
-                             const std::vector<ClusteredSettings>& settings, uint32_t oracle_points) {
+Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& lights,
+                              const std::vector<Trial>& trials, uint32_t oracle_points) {
   for (const Light& light : lights) EXPECT_EQ(rejection_reason(light), nullptr) << rejection_reason(light);
   storage_.fill(lights, camera.position);
   input_.view = view_data(camera, width(), height(), static_cast<uint32_t>(lights.size()));
@@ -146,16 +205,16 @@ Seen Exactness::expect_exact(const Camera& camera, const std::vector<Light>& lig
     EXPECT_EQ(mismatches(read_counts(frame_), seen.truth), 0u) << "pixels";
     expect_same_image(result_picture(frame_), seen.image, floor);
   }
-  for (const ClusteredSettings& each : settings) {
-    SCOPED_TRACE(each.text());
-    expect_clustered(each, seen, floor);
+  for (const Trial& trial : trials) {
+    SCOPED_TRACE(trial.text());
+    expect_trial(trial, seen, floor);
   }
   if (oracle_points) expect_oracle(seen, oracle_points, floor);
   return seen;
 }
 
-void Exactness::expect_clustered(const ClusteredSettings& settings, Seen& seen, double floor) {
-  Slot& slot = clustered(settings);
+void Exactness::expect_trial(const Trial& trial, Seen& seen, double floor) {
+  Slot& slot = slot_of(trial);
   ShadedAlgorithm& algorithm = *slot.shaded;
   Spans spans;
   algorithm.prepare(input_, spans);
@@ -189,7 +248,7 @@ void Exactness::expect_clustered(const ClusteredSettings& settings, Seen& seen, 
   EXPECT_TRUE(counts.listed == second.listed && counts.tested == second.tested && counts.hash == second.hash)
       << "counters differ the second time";
   EXPECT_EQ(compare_images(result_picture(frame_), image).differing_bits, 0u) << "the second time";
-  seen.clustered.push_back(std::move(counts));
+  seen.counts.push_back(std::move(counts));
   seen.prepared.push_back(frame.prepare);
 }
 

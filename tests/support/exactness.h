@@ -2,10 +2,12 @@
 // again, and the oracle's answer.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "harness/base/random.h"
 #include "harness/bench/counting.h"
 #include "harness/bench/oracle_input.h"
 #include "harness/frame/frame_input.h"
@@ -15,24 +17,37 @@
 
 namespace ml::test {
 
-// Parameters of `clustered`, named as in a configuration.
-struct ClusteredSettings {
+// Parameters of the algorithms that have a grid, named as in a configuration.
+struct GridSettings {
   int64_t tile = 24, slices = 16;
   double zmin = 5, zmax = 0;
   bool refinement = false;
   bool duplicated = false;
+};
+
+// An algorithm under test with its parameters.
+struct Trial {
+  std::string algorithm;
+  Parameters parameters;
   std::string text() const;
 };
 
+// Every algorithm takes its turn with the grids: clustered with each, and one other with each; pixels walk
+// alone and together by turns.
+std::vector<Trial> trials_of(const std::vector<GridSettings>& grids);
+
+// Any exact algorithm with any parameters that `list` names.
+Trial random_trial(Random& random, uint32_t width, uint32_t height);
+
 // Both data layouts with and without refinement, odd tiles, 1 to 64 slices.
-std::vector<ClusteredSettings> usual_settings();
+std::vector<GridSettings> usual_settings();
 
 // What a check saw, for tests that know more about the case.
 struct Seen {
   ContributingLights truth;
   std::vector<uint8_t> lit;
-  Picture image;                       // brute force
-  std::vector<PixelCounts> clustered;  // one for each of the settings
+  Picture image;                    // brute force
+  std::vector<PixelCounts> counts;  // one for each trial
   std::vector<PrepareCounters> prepared;
   uint64_t contributing() const;  // over all pixels
   uint64_t lit_pixels() const;
@@ -46,12 +61,16 @@ class Exactness {
             const Effects& effects = {.spots = true, .long_lists = false});
   ~Exactness();
 
-  // Expects all invariants of the frame, for brute_force, ideal and clustered with each of the settings.
+  // Expects all invariants of the frame, for brute_force, ideal and each trial.
   // `oracle_points`: pixels that the double-precision oracle answers, spread over the lit ones; the checks
   // need at least one lit pixel unless it is 0.
   Seen expect_exact(const Camera& camera, const std::vector<Light>& lights,
-                    const std::vector<ClusteredSettings>& settings = usual_settings(),
-                    uint32_t oracle_points = 12);
+                    const std::vector<GridSettings>& settings = usual_settings(),
+                    uint32_t oracle_points = 12) {
+    return expect_trials(camera, lights, trials_of(settings), oracle_points);
+  }
+  Seen expect_trials(const Camera& camera, const std::vector<Light>& lights, const std::vector<Trial>& trials,
+                     uint32_t oracle_points);
 
   // The frame of the last check.
   const FrameInput& input() const { return input_; }
@@ -66,13 +85,13 @@ class Exactness {
     std::shared_ptr<std::unique_ptr<Algorithm>> inner;
     std::unique_ptr<ShadedAlgorithm> shaded;
   };
-  Slot& clustered(const ClusteredSettings& settings);
-  void expect_clustered(const ClusteredSettings& settings, Seen& seen, double floor);
+  Slot& slot_of(const Trial& trial);
+  void expect_trial(const Trial& trial, Seen& seen, double floor);
   void expect_oracle(const Seen& seen, uint32_t points, double floor);
 
   DeviceFrame frame_;
   ShadedAlgorithm brute_, ideal_;
-  Slot slots_[2];  // indexed, duplicated
+  std::map<std::string, Slot> slots_;  // by algorithm and what is compiled into its programs
   FrameLightStorage storage_;
   Threads threads_;
   FrameInput input_;
