@@ -6,6 +6,7 @@
 #include "algorithms/clustered/clustered.h"
 #include "algorithms/hybrid/hybrid.h"
 #include "algorithms/ideal/ideal.h"
+#include "algorithms/light_bvh/light_bvh.h"
 #include "algorithms/light_tree/light_tree.h"
 #include "harness/base/error.h"
 
@@ -18,6 +19,7 @@ const std::vector<AlgorithmEntry>& algorithm_registry() {
       clustered_entry(),
       light_tree_entry(),
       hybrid_entry(),
+      light_bvh_entry(),
   };
   return entries;
 }

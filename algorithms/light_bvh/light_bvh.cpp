@@ -1,0 +1,115 @@
+#include "algorithms/light_bvh/light_bvh.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "algorithms/froxels/binning.h"
+#include "algorithms/light_bvh/packing.h"
+#include "harness/base/error.h"
+#include "spirv/light_bvh_shade.h"
+#include "spirv/light_bvh_shade_counting.h"
+
+namespace ml {
+namespace {
+
+enum Slot : uint32_t { tree_slot, nodes_slot };
+
+// One light in so many is inserted anew each frame.
+constexpr uint32_t reinsertion_period = 64;
+
+class LightBvh final : public Algorithm {
+ public:
+  explicit LightBvh(const Parameters& p)
+      : tree_(static_cast<uint32_t>(p.integer("branching"))),
+        rebuild_(p.choice("update") == "rebuild"),
+        node_words_(p.choice("node_bytes") == "24" ? 6 : 8) {}
+
+  void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override {
+    {
+      auto span = spans.span("cull");
+      cull(frame);
+    }
+    {
+      auto span = spans.span("build");
+      update(frame);
+      packing_.build(tree_, frame.lights, visible_);
+    }
+    auto span = spans.span("upload");
+    const auto nodes = packing_.nodes();
+    const size_t node_bytes = size_t{node_words_} * sizeof(uint32_t), bytes = nodes.size() * node_bytes;
+    if (bytes > memory.limit())
+      throw SystemError(fmt::format("light_bvh: the tree would take {} bytes, the device's buffer holds {}", bytes,
+                                    memory.limit()));
+    const auto count = static_cast<uint32_t>(nodes.size());
+    std::memcpy(memory.map(tree_slot, sizeof count).data(), &count, sizeof count);
+    std::byte* to = memory.map(nodes_slot, bytes).data();
+    if (node_bytes != sizeof(PackedNode) && bytes > 0) std::memset(to, 0, bytes);
+    for (size_t i = 0; i < nodes.size(); ++i) std::memcpy(to + i * node_bytes, &nodes[i], sizeof(PackedNode));
+    counters_.list_bytes = bytes;
+  }
+
+  PrepareCounters counters() const override { return counters_; }
+  std::vector<std::string> buffers() const override { return {"Tree", "SphereNodes"}; }
+  ShadeShaders shade_shaders() const override { return {light_bvh_shade, light_bvh_shade_counting}; }
+  std::vector<uint32_t> shade_constants() const override { return {node_words_}; }
+
+ private:
+  void cull(const FrameInput& frame) {
+    // One froxel: only the planes of the view count.
+    const FroxelGrid grid = FroxelGrid::make(frame.view, std::max(frame.view.resolution.x, frame.view.resolution.y), 1,
+                                             frame.view.near, 0);
+    simd::cull(frame.lights, 0, frame.lights.count(), BoundsConstants(frame.view, grid), culled_);
+    visible_.assign(frame.lights.count(), 0);
+    for (size_t i = 0; i < culled_.count; ++i) visible_[culled_.index[i]] = 1;
+    counters_.in_frustum = culled_.count;
+  }
+
+  // A lap through the frames begins with a fresh tree, so that every lap does the same work. A frame that is prepared
+  // again is only refitted. Lights that came or went leave no way to tell who is who: then the tree is built afresh.
+  void update(const FrameInput& frame) {
+    const bool same_frame = built_ && frame.index == last_frame_, next_frame = built_ && frame.index > last_frame_;
+    const bool known = tree_.lights() == frame.lights.count();
+    if (rebuild_ || !known || !(same_frame || next_frame)) {
+      tree_.build(frame.lights);
+    } else {
+      tree_.refit(frame.lights);
+      if (next_frame) tree_.reinsert(frame.lights, frame.index % reinsertion_period, reinsertion_period);
+    }
+    built_ = true;
+    last_frame_ = frame.index;
+  }
+
+  SphereTree tree_;
+  SpherePacking packing_;
+  bool rebuild_;
+  uint32_t node_words_;
+  VisibleLights culled_;
+  std::vector<uint8_t> visible_;
+  bool built_ = false;
+  uint32_t last_frame_ = 0;
+  PrepareCounters counters_;
+};
+
+}  // namespace
+
+AlgorithmEntry light_bvh_entry() {
+  AlgorithmEntry entry;
+  entry.info.name = "light_bvh";
+  entry.info.summary = "one tree of spheres over all lights, walked by every pixel";
+  entry.info.paper = "Mamacos, Simple Alternative to Clustered Shading for Thousands of Lights (blog post)";
+  entry.info.cpu_stages = {"cull", "build", "upload"};
+  entry.info.gpu_stages = {"shade"};
+  entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
+  entry.parameters = {
+      ParameterInfo::integer("branching", 8, 2, 8, "most children of a node"),
+      ParameterInfo::choice("update", "refit", {"refit", "rebuild"},
+                            "moving lights: refit the tree and insert one light in 64 anew each frame, or build it "
+                            "afresh (surface area heuristic)"),
+      ParameterInfo::choice("node_bytes", "24", {"24", "32"}, "bytes of a node: packed, or padded to two words of 16"),
+  };
+  entry.create = [](const Parameters& parameters) { return std::make_unique<LightBvh>(parameters); };
+  return entry;
+}
+
+}  // namespace ml

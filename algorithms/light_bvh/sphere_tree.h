@@ -1,0 +1,62 @@
+// A tree over the balls of lights with 2 to 8 children a node, kept from frame to frame: built afresh by the surface
+// area heuristic, or refitted to where lights have moved and repaired by inserting some of them anew (after J. Bittner,
+// M. Hapala, V. Havran, "Fast Insertion-Based Optimization of Bounding Volume Hierarchies", CGF 32(1), 2013, which the
+// post's reference [1] is; there the worst nodes are chosen, here every light in its turn).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "algorithms/algorithm.h"
+
+namespace ml {
+
+class SphereTree {
+ public:
+  static constexpr uint32_t most_children = 8, none = 0xffffffffu;
+
+  struct Box {
+    glm::vec3 low{0}, high{0};
+    float area() const;
+  };
+  struct Node {
+    Box box;
+    uint32_t parent = none;
+    uint32_t light = none;  // leaf
+    uint32_t children = 0;
+    std::array<uint32_t, most_children> child{};
+  };
+
+  explicit SphereTree(uint32_t branching) : branching_(branching) {}
+
+  // A fresh tree: binned surface area heuristic, binary, then the largest children opened until a node is full.
+  void build(const FrameLights& lights);
+  // New bounds for the same tree; lights.count() must be what it was built with.
+  void refit(const FrameLights& lights);
+  // Takes lights first, first + stride, ... out and inserts each where it costs least.
+  void reinsert(const FrameLights& lights, uint32_t first, uint32_t stride);
+
+  uint32_t root() const { return root_; }  // none: no lights
+  uint32_t lights() const { return lights_; }
+  const Node& operator[](uint32_t node) const { return nodes_[node]; }
+  // Nodes, children before their parent.
+  const std::vector<uint32_t>& bottom_up() const { return order_; }
+
+ private:
+  uint32_t new_node();
+  uint32_t build_range(const FrameLights& lights, uint32_t begin, uint32_t end, uint32_t depth);
+  void collapse(uint32_t node);
+  void remove(uint32_t leaf);
+  void insert(uint32_t leaf);
+  void fit(uint32_t node);
+  void list_bottom_up();
+
+  uint32_t branching_;
+  uint32_t root_ = none, lights_ = 0;
+  std::vector<Node> nodes_;
+  std::vector<uint32_t> free_, leaf_of_light_, items_, order_, stack_;
+};
+
+}  // namespace ml
