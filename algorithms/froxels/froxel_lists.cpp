@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "algorithms/froxels/shape_bounds.h"
 #include "harness/base/error.h"
 
 namespace ml {
@@ -23,9 +24,23 @@ void FroxelLists::too_many(uint64_t entries, uint64_t limit) const {
       owner_, entries, limit));
 }
 
-void FroxelLists::emit(Part& part, const VisibleRun& visible, const BoundsConstants& constants,
-                       const FroxelSettings& settings, uint64_t max_entries) const {
+// `first_rank`: rank of the run's first light, when ordered by depth.
+void FroxelLists::emit(const FrameLights& lights, Part& part, const VisibleRun& visible, size_t first_rank,
+                       const BoundsConstants& constants, const FroxelSettings& settings,
+                       uint64_t max_entries) {
   simd::bound(visible, constants, part.boxes);
+  const bool by_depth = settings.order == FroxelSettings::Order::depth;
+  if (!lights.extra.empty())
+    for (size_t i = 0; i < visible.count; ++i) {
+      const uint32_t light = by_depth ? light_of_rank()[visible.index[i]] : visible.index[i];
+      const gpu_data::LightCore& core = lights.core[light];
+      if (core.id_shape >> 24 == ML_SHAPE_OMNI) continue;
+      scalar::DepthInterval depth = scalar::depth_interval(visible.z[i], visible.radius[i]);
+      tighten(constants, core, lights.extra[light], part.boxes, i, depth);
+      if (!by_depth) continue;
+      depth_of_rank_.low[first_rank + i] = depth.low;
+      depth_of_rank_.high[first_rank + i] = depth.high;
+    }
   uint64_t pairs = count_pairs(part.boxes, visible.count);
   if (pairs > max_entries && !settings.refinement) too_many(pairs, max_entries);
   // Refinement leaves out about a tenth; demand far beyond the limit is refused before memory is taken for
@@ -72,10 +87,11 @@ void FroxelLists::build(const FrameInput& frame, const FroxelSettings& settings,
   if (settings.refinement) planes_.build(constants);
   if (by_depth) depth_of_rank_.reserve(in_frustum_);
   frame.threads->for_each(parts, [&](size_t p) {
-    if (!by_depth) return emit(parts_[p], parts_[p].visible, constants, settings, max_entries);
+    if (!by_depth)
+      return emit(frame.lights, parts_[p], parts_[p].visible, 0, constants, settings, max_entries);
     VisibleRun run(sorted_, run_begin(p), run_begin(p + 1));
     simd::depth_ranges(run, &depth_of_rank_.low[run_begin(p)], &depth_of_rank_.high[run_begin(p)]);
-    emit(parts_[p], run, constants, settings, max_entries);
+    emit(frame.lights, parts_[p], run, run_begin(p), constants, settings, max_entries);
   });
 
   uint64_t total = 0;

@@ -51,8 +51,8 @@ class FroxelLists {
     FroxelPairs pairs;
     std::vector<uint32_t> next;  // per froxel: first the part's count, then where its next entry goes
   };
-  void emit(Part& part, const VisibleRun& visible, const BoundsConstants& constants,
-            const FroxelSettings& settings, uint64_t max_entries) const;
+  void emit(const FrameLights& lights, Part& part, const VisibleRun& visible, size_t first_rank,
+            const BoundsConstants& constants, const FroxelSettings& settings, uint64_t max_entries);
   [[noreturn]] void too_many(uint64_t entries, uint64_t limit) const;
 
   std::string owner_;

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "algorithms/froxels/shape_bounds.h"
+
 namespace ml {
 namespace {
 
@@ -49,6 +51,34 @@ void ReferenceLists::sort_by_depth() {
   sorted_.count = count;
 }
 
+void ReferenceLists::tighten_shapes(const FrameLights& all, const BoundsConstants& constants,
+                                    const VisibleLights& lights, bool by_depth) {
+  LightBoxes one;
+  one.reserve(1);
+  for (size_t i = 0; i < lights.count; ++i) {
+    const uint32_t light = by_depth ? light_of_rank_[i] : lights.index[i];
+    FroxelBox& box = boxes_[i];
+    if (all.core[light].id_shape >> 24 == ML_SHAPE_OMNI) continue;
+    scalar::DepthInterval depth = scalar::depth_interval(lights.z[i], lights.radius[i]);
+    if (!box.empty()) {
+      one.first[0] = (box.y0 * grid_.columns + box.x0) * grid_.slices + box.z0;
+      one.columns[0] = box.x1 - box.x0 + 1u, one.rows[0] = box.y1 - box.y0 + 1u,
+      one.slices[0] = box.z1 - box.z0 + 1u;
+      tighten(constants, all.core[light], all.extra[light], one, 0, depth);
+      if (one.columns[0] == 0) {
+        box = {};
+      } else {
+        const uint32_t first = one.first[0], x = first / grid_.slices % grid_.columns,
+                       y = first / grid_.slices / grid_.columns, z = first % grid_.slices;
+        auto narrow = [](uint32_t value) { return static_cast<uint16_t>(value); };
+        box = {narrow(x), narrow(x + one.columns[0] - 1), narrow(y), narrow(y + one.rows[0] - 1),
+               narrow(z), narrow(z + one.slices[0] - 1)};
+      }
+    }
+    if (by_depth) depth_of_rank_[i] = depth;
+  }
+}
+
 void ReferenceLists::build(const FrameInput& frame, const FroxelSettings& settings) {
   grid_ = FroxelGrid::make(frame.view, settings.tile, settings.slices, settings.zmin, settings.zmax);
   const BoundsConstants constants(frame.view, grid_);
@@ -59,6 +89,7 @@ void ReferenceLists::build(const FrameInput& frame, const FroxelSettings& settin
   boxes_.resize(lights.count);
   for (size_t i = 0; i < lights.count; ++i)
     boxes_[i] = scalar::bound_ball(constants, lights.x[i], lights.y[i], lights.z[i], lights.radius[i]);
+  if (!frame.lights.extra.empty()) tighten_shapes(frame.lights, constants, lights, by_depth);
 
   offsets_.assign(grid_.cells() + size_t{1}, 0);
   for (const FroxelBox& box : boxes_)

@@ -23,6 +23,8 @@ class ReferenceLists {
 
  private:
   void sort_by_depth();
+  void tighten_shapes(const FrameLights& all, const BoundsConstants& constants, const VisibleLights& lights,
+                      bool by_depth);
 
   FroxelGrid grid_;
   VisibleLights visible_, sorted_;

@@ -39,8 +39,8 @@ class LightBvh final : public Algorithm {
     const auto nodes = packing_.nodes();
     const size_t node_bytes = size_t{node_words_} * sizeof(uint32_t), bytes = nodes.size() * node_bytes;
     if (bytes > memory.limit())
-      throw SystemError(fmt::format("light_bvh: the tree would take {} bytes, the device's buffer holds {}", bytes,
-                                    memory.limit()));
+      throw SystemError(fmt::format("light_bvh: the tree would take {} bytes, the device's buffer holds {}",
+                                    bytes, memory.limit()));
     const auto count = static_cast<uint32_t>(nodes.size());
     std::memcpy(memory.map(tree_slot, sizeof count).data(), &count, sizeof count);
     std::byte* to = memory.map(nodes_slot, bytes).data();
@@ -57,18 +57,20 @@ class LightBvh final : public Algorithm {
  private:
   void cull(const FrameInput& frame) {
     // One froxel: only the planes of the view count.
-    const FroxelGrid grid = FroxelGrid::make(frame.view, std::max(frame.view.resolution.x, frame.view.resolution.y), 1,
-                                             frame.view.near, 0);
+    const FroxelGrid grid = FroxelGrid::make(
+        frame.view, std::max(frame.view.resolution.x, frame.view.resolution.y), 1, frame.view.near, 0);
     simd::cull(frame.lights, 0, frame.lights.count(), BoundsConstants(frame.view, grid), culled_);
     visible_.assign(frame.lights.count(), 0);
     for (size_t i = 0; i < culled_.count; ++i) visible_[culled_.index[i]] = 1;
     counters_.in_frustum = culled_.count;
   }
 
-  // A lap through the frames begins with a fresh tree, so that every lap does the same work. A frame that is prepared
-  // again is only refitted. Lights that came or went leave no way to tell who is who: then the tree is built afresh.
+  // A lap through the frames begins with a fresh tree, so that every lap does the same work. A frame that is
+  // prepared again is only refitted. Lights that came or went leave no way to tell who is who: then the tree
+  // is built afresh.
   void update(const FrameInput& frame) {
-    const bool same_frame = built_ && frame.index == last_frame_, next_frame = built_ && frame.index > last_frame_;
+    const bool same_frame = built_ && frame.index == last_frame_,
+               next_frame = built_ && frame.index > last_frame_;
     const bool known = tree_.lights() == frame.lights.count();
     if (rebuild_ || !known || !(same_frame || next_frame)) {
       tree_.build(frame.lights);
@@ -103,10 +105,12 @@ AlgorithmEntry light_bvh_entry() {
   entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
   entry.parameters = {
       ParameterInfo::integer("branching", 8, 2, 8, "most children of a node"),
-      ParameterInfo::choice("update", "refit", {"refit", "rebuild"},
-                            "moving lights: refit the tree and insert one light in 64 anew each frame, or build it "
-                            "afresh (surface area heuristic)"),
-      ParameterInfo::choice("node_bytes", "24", {"24", "32"}, "bytes of a node: packed, or padded to two words of 16"),
+      ParameterInfo::choice(
+          "update", "refit", {"refit", "rebuild"},
+          "moving lights: refit the tree and insert one light in 64 anew each frame, or build it "
+          "afresh (surface area heuristic)"),
+      ParameterInfo::choice("node_bytes", "24", {"24", "32"},
+                            "bytes of a node: packed, or padded to two words of 16"),
   };
   entry.create = [](const Parameters& parameters) { return std::make_unique<LightBvh>(parameters); };
   return entry;

@@ -203,8 +203,9 @@ void SphereTree::remove(uint32_t leaf) {
   for (; dirty != none; dirty = nodes_[dirty].parent) fit(dirty);
 }
 
-// Down from the root: into the child whose surface grows least, until a sibling is cheaper. A node with room takes the
-// light as a child, for the price of one more test; a full one, or a leaf, shares a new node with it.
+// Down from the root: into the child whose surface grows least, until a sibling is cheaper. A node with room
+// takes the light as a child, for the price of one more test; a full one, or a leaf, shares a new node with
+// it.
 void SphereTree::insert(uint32_t leaf) {
   const Box box = nodes_[leaf].box;
   uint32_t node = root_;

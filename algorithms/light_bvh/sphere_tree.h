@@ -1,7 +1,8 @@
-// A tree over the balls of lights with 2 to 8 children a node, kept from frame to frame: built afresh by the surface
-// area heuristic, or refitted to where lights have moved and repaired by inserting some of them anew (after J. Bittner,
-// M. Hapala, V. Havran, "Fast Insertion-Based Optimization of Bounding Volume Hierarchies", CGF 32(1), 2013, which the
-// post's reference [1] is; there the worst nodes are chosen, here every light in its turn).
+// A tree over the balls of lights with 2 to 8 children a node, kept from frame to frame: built afresh by the
+// surface area heuristic, or refitted to where lights have moved and repaired by inserting some of them anew
+// (after J. Bittner, M. Hapala, V. Havran, "Fast Insertion-Based Optimization of Bounding Volume
+// Hierarchies", CGF 32(1), 2013, which the post's reference [1] is; there the worst nodes are chosen, here
+// every light in its turn).
 #pragma once
 
 #include <array>
@@ -31,7 +32,8 @@ class SphereTree {
 
   explicit SphereTree(uint32_t branching) : branching_(branching) {}
 
-  // A fresh tree: binned surface area heuristic, binary, then the largest children opened until a node is full.
+  // A fresh tree: binned surface area heuristic, binary, then the largest children opened until a node is
+  // full.
   void build(const FrameLights& lights);
   // New bounds for the same tree; lights.count() must be what it was built with.
   void refit(const FrameLights& lights);

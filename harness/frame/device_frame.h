@@ -26,6 +26,10 @@ struct Effects {
   bool long_lists = true;
   static constexpr uint32_t most_turns = 28000;
   std::vector<std::string> names() const;  // those that are on, "omni" first
+  // A bit for each LightShape that shines as what it is; the others shine like omni lights.
+  uint32_t shapes() const {
+    return 1u | (spots ? 2u : 0u) | (capsules ? 4u : 0u) | (wedges ? 8u : 0u) | (boxes ? 16u : 0u);
+  }
   // The specialization constants that shaders/light_eval.glsl asks for.
   std::vector<gpu::Constant> constants() const;
 };

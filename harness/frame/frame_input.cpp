@@ -84,13 +84,15 @@ gpu_data::ViewData view_data(const Camera& camera, uint32_t width, uint32_t heig
   return view;
 }
 
-void FrameLightStorage::fill(const std::vector<Light>& lights, const glm::vec3& camera) {
+void FrameLightStorage::fill(const std::vector<Light>& lights, const glm::vec3& camera, uint32_t shapes) {
   assert(lights.size() <= gpu_data::uint{ML_LIGHT_ID_MASK} + 1);
   count_ = lights.size();
   for (std::vector<float>* column : {&x_, &y_, &z_, &radius_}) column->resize(count_ + padding);
   core_.resize(count_);
-  bool needs_extra = std::any_of(lights.begin(), lights.end(),
-                                 [](const Light& light) { return light.shape != LightShape::omni; });
+  auto is_omni = [shapes](const Light& light) {
+    return light.shape == LightShape::omni || !(shapes >> static_cast<uint32_t>(light.shape) & 1);
+  };
+  const bool needs_extra = !std::all_of(lights.begin(), lights.end(), is_omni);
   extra_.resize(needs_extra ? count_ : 0);
   const glm::dvec3 eye(camera);
   for (size_t i = 0; i < count_; ++i) {
@@ -99,10 +101,14 @@ void FrameLightStorage::fill(const std::vector<Light>& lights, const glm::vec3& 
     x_[i] = position.x;
     y_[i] = position.y;
     z_[i] = position.z;
-    radius_[i] = bounding_radius(light);
+    const bool omni = is_omni(light);
+    radius_[i] = omni ? light.radius : bounding_radius(light);
     core_[i] = {position, light.radius, light.intensity,
-                static_cast<uint32_t>(i) | static_cast<uint32_t>(light.shape) << 24};
-    if (needs_extra) extra_[i] = extra_of(light);
+                static_cast<uint32_t>(i) | (omni ? ML_SHAPE_OMNI : static_cast<uint32_t>(light.shape)) << 24};
+    if (!needs_extra) continue;
+    Light shining = light;
+    if (omni) shining.shape = LightShape::omni;
+    extra_[i] = extra_of(shining);
   }
 }
 
@@ -118,8 +124,15 @@ FrameLights FrameLightStorage::lights() const {
 }
 
 FrameSequence::FrameSequence(const Scene& scene, const LightSet& lights, const CameraPath& path,
-                             uint32_t frames, uint32_t width, uint32_t height, Threads& threads)
-    : scene_(scene), set_(lights), path_(path), frames_(frames), width_(width), height_(height) {
+                             uint32_t frames, uint32_t width, uint32_t height, Threads& threads,
+                             uint32_t shapes)
+    : scene_(scene),
+      set_(lights),
+      path_(path),
+      frames_(frames),
+      width_(width),
+      height_(height),
+      shapes_(shapes) {
   input_.threads = &threads;
 }
 
@@ -127,7 +140,7 @@ const FrameInput& FrameSequence::at(uint32_t index) {
   assert(index < frames_);
   camera_ = path_.sample(index, frames_, width_, height_, scene_.near, scene_.far);
   set_.at(index, frames_, path_.duration(), active_);
-  storage_.fill(active_, camera_.position);
+  storage_.fill(active_, camera_.position, shapes_);
   input_.index = index;
   input_.view = view_data(camera_, width_, height_, static_cast<uint32_t>(active_.size()));
   input_.lights = storage_.lights();

@@ -15,11 +15,14 @@ namespace ml {
 
 gpu_data::ViewData view_data(const Camera& camera, uint32_t width, uint32_t height, uint32_t light_count);
 
+inline constexpr uint32_t all_light_shapes = 31;
+
 // Fills structure-of-arrays storage from lights; reused from frame to frame.
 class FrameLightStorage {
  public:
   // `camera` as in Camera::position. Lights must have passed rejection_reason(); at most 2^24 of them.
-  void fill(const std::vector<Light>& lights, const glm::vec3& camera);
+  // `shapes`: a bit for each LightShape; lights of a shape that is off are omni lights of their radius.
+  void fill(const std::vector<Light>& lights, const glm::vec3& camera, uint32_t shapes = all_light_shapes);
   FrameLights lights() const;
 
  private:
@@ -34,7 +37,7 @@ class FrameSequence {
  public:
   // The scene, the lights and the threads must outlive the sequence.
   FrameSequence(const Scene& scene, const LightSet& lights, const CameraPath& path, uint32_t frames,
-                uint32_t width, uint32_t height, Threads& threads);
+                uint32_t width, uint32_t height, Threads& threads, uint32_t shapes = all_light_shapes);
 
   // The input of a frame, 0 <= index < frames(); valid until the next call.
   const FrameInput& at(uint32_t index);
@@ -49,7 +52,7 @@ class FrameSequence {
   const Scene& scene_;
   const LightSet& set_;
   const CameraPath& path_;
-  uint32_t frames_, width_, height_;
+  uint32_t frames_, width_, height_, shapes_;
   Camera camera_;
   std::vector<Light> active_;
   FrameLightStorage storage_;

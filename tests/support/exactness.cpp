@@ -182,7 +182,7 @@ Exactness::Slot& Exactness::slot_of(const Trial& trial) {
 Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& lights,
                               const std::vector<Trial>& trials, uint32_t oracle_points) {
   for (const Light& light : lights) EXPECT_EQ(rejection_reason(light), nullptr) << rejection_reason(light);
-  storage_.fill(lights, camera.position);
+  storage_.fill(lights, camera.position, frame_.effects().shapes());
   input_.view = view_data(camera, width(), height(), static_cast<uint32_t>(lights.size()));
   input_.lights = storage_.lights();
   frame_.load(input_);

@@ -44,8 +44,8 @@ FroxelSettings random_settings(Random& random) {
   return settings;
 }
 
-BinningFrame::BinningFrame(const std::vector<Light>& lights, const Camera& camera, uint32_t width, uint32_t height,
-                           unsigned count)
+BinningFrame::BinningFrame(const std::vector<Light>& lights, const Camera& camera, uint32_t width,
+                           uint32_t height, unsigned count)
     : threads(count) {
   storage.fill(lights, camera.position);
   frame.view = view_data(camera, width, height, static_cast<uint32_t>(lights.size()));

@@ -16,7 +16,8 @@ inline float log_uniform(Random& random, float low, float high) {
 
 // A camera that looks somewhere, with an off-centre window; every third is orthographic.
 Camera random_camera(Random& random);
-// Around the camera at all distances, in front and behind, so that many straddle the near plane or hold the camera.
+// Around the camera at all distances, in front and behind, so that many straddle the near plane or hold the
+// camera.
 std::vector<Light> random_lights(Random& random, uint32_t count, const Camera& camera);
 FroxelSettings random_settings(Random& random);
 

@@ -1,5 +1,5 @@
-// Light trees: every light is reached wherever it may shine, the same as the scalar reference, within the node's
-// fields, independent of threads.
+// Light trees: every light is reached wherever it may shine, the same as the scalar reference, within the
+// node's fields, independent of threads.
 #include "algorithms/trees/forest.h"
 
 #include <gtest/gtest.h>
@@ -71,11 +71,13 @@ TEST(Forest, EveryLightIsReachedWhereverAPixelCanSeeInsideIt) {
       uint32_t x = random.below(width), y = random.below(height);
       float depth = log_uniform(random, view.near, std::min(view.far, 1000.0f));
       glm::dvec3 point = point_at(view, x, y, static_cast<double>(depth));
-      uint32_t cell = ((y / settings.tile) * trees.lists.grid().columns + x / settings.tile) * settings.slices +
-                      gpu_data::slice_of_depth(depth, trees.lists.grid().mapping);
+      uint32_t cell =
+          ((y / settings.tile) * trees.lists.grid().columns + x / settings.tile) * settings.slices +
+          gpu_data::slice_of_depth(depth, trees.lists.grid().mapping);
       std::vector<uint32_t> reached = trees.walk(cell, depth);
       std::sort(reached.begin(), reached.end());
-      ASSERT_TRUE(std::adjacent_find(reached.begin(), reached.end()) == reached.end()) << "twice, seed " << seed;
+      ASSERT_TRUE(std::adjacent_find(reached.begin(), reached.end()) == reached.end())
+          << "twice, seed " << seed;
       for (uint32_t light = 0; light < fixture.frame.lights.count(); ++light) {
         const gpu_data::LightCore& core = fixture.frame.lights.core[light];
         bool inside = glm::distance(glm::dvec3(core.position), point) < static_cast<double>(core.radius);
@@ -107,8 +109,8 @@ TEST(Forest, FastPathGivesTheReferencesBits) {
     ASSERT_EQ(trees.nodes.size(), reference.nodes().size()) << "seed " << seed;
     for (size_t i = 0; i < trees.nodes.size(); ++i) {
       const TreeNode &fast = trees.nodes[i], &plain = reference.nodes()[i];
-      ASSERT_TRUE(fast.low == plain.low && fast.high == plain.high && fast.first_or_below == plain.first_or_below &&
-                  fast.packed == plain.packed)
+      ASSERT_TRUE(fast.low == plain.low && fast.high == plain.high &&
+                  fast.first_or_below == plain.first_or_below && fast.packed == plain.packed)
           << "seed " << seed << ", node " << i;
     }
   }

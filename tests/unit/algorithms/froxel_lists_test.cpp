@@ -57,7 +57,7 @@ TEST(FroxelLists, VectorCodeGivesTheReferencesBits) {
     Random random(1000 + seed);
     Camera camera = random_camera(random);
     BinningFrame fixture(random_lights(random, random.below(700), camera), camera, 1 + random.below(400),
-                    1 + random.below(400));
+                         1 + random.below(400));
     FroxelSettings settings = random_settings(random);
     settings.refinement = false;
     FroxelLists lists{"clustered"};

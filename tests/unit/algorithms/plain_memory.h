@@ -21,7 +21,8 @@ class PlainMemory final : public UploadMemory {
   std::vector<std::byte> all() const {
     std::vector<std::byte> bytes;
     for (size_t slot = 0; slot < slots_.size(); ++slot)
-      bytes.insert(bytes.end(), slots_[slot].begin(), slots_[slot].begin() + static_cast<ptrdiff_t>(used_[slot]));
+      bytes.insert(bytes.end(), slots_[slot].begin(),
+                   slots_[slot].begin() + static_cast<ptrdiff_t>(used_[slot]));
     return bytes;
   }
 

@@ -1,0 +1,158 @@
+// The tree of light_bvh: every light once, bounds that hold what is below, at most as many children as asked,
+// whatever is done to it; and the packed walk reaches every light that holds a point.
+#include "algorithms/light_bvh/sphere_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+#include "algorithms/light_bvh/packing.h"
+#include "binning_cases.h"
+
+namespace ml {
+namespace {
+
+using namespace test;
+
+struct MovingLights {
+  std::vector<Light> lights;
+  FrameLightStorage storage;
+  FrameLights now;
+  MovingLights(Random& random, uint32_t count) : lights(count) {
+    for (Light& light : lights) {
+      light.position = {random.uniform(-50, 50), random.uniform(-5, 5), random.uniform(-50, 50)};
+      light.radius = log_uniform(random, 0.1f, 8);
+    }
+    fill();
+  }
+  void move(Random& random, float most) {
+    for (Light& light : lights)
+      light.position +=
+          glm::dvec3(random.uniform(-most, most), random.uniform(-most, most), random.uniform(-most, most));
+    fill();
+  }
+  void fill() {
+    storage.fill(lights, glm::vec3(0));
+    now = storage.lights();
+  }
+};
+
+void expect_sound(const SphereTree& tree, const FrameLights& lights, uint32_t branching) {
+  std::set<uint32_t> seen;
+  for (uint32_t node : tree.bottom_up()) {
+    const SphereTree::Node& n = tree[node];
+    if (n.light != SphereTree::none) {
+      EXPECT_TRUE(seen.insert(n.light).second) << "light " << n.light << " twice";
+      const glm::vec3 center(lights.x[n.light], lights.y[n.light], lights.z[n.light]);
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_LE(n.box.low[axis], center[axis] - lights.radius[n.light]);
+        EXPECT_GE(n.box.high[axis], center[axis] + lights.radius[n.light]);
+      }
+      continue;
+    }
+    EXPECT_GE(n.children, 2u);
+    EXPECT_LE(n.children, branching);
+    for (uint32_t c = 0; c < n.children; ++c) {
+      const SphereTree::Node& child = tree[n.child[c]];
+      EXPECT_EQ(child.parent, node);
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_LE(n.box.low[axis], child.box.low[axis]);
+        EXPECT_GE(n.box.high[axis], child.box.high[axis]);
+      }
+    }
+  }
+  EXPECT_EQ(seen.size(), lights.count());
+}
+
+// Lights of the leaves that a point reaches.
+std::set<uint32_t> walk(std::span<const PackedNode> nodes, const glm::vec3& point) {
+  std::set<uint32_t> lights;
+  for (uint32_t i = 0; i < nodes.size();) {
+    const bool hit = glm::distance(nodes[i].center, point) <= nodes[i].radius;
+    if (hit && nodes[i].light != packed_inner) lights.insert(nodes[i].light);
+    i = hit ? i + 1 : nodes[i].miss;
+  }
+  return lights;
+}
+
+void expect_complete(const SphereTree& tree, const FrameLights& lights, Random& random) {
+  std::vector<uint8_t> visible(lights.count());
+  for (uint8_t& flag : visible) flag = random.below(4) != 0;
+  SpherePacking packing;
+  packing.build(tree, lights, visible);
+  for (int sample = 0; sample < 100; ++sample) {
+    const glm::vec3 point(random.uniform(-50, 50), random.uniform(-5, 5), random.uniform(-50, 50));
+    const std::set<uint32_t> reached = walk(packing.nodes(), point);
+    for (uint32_t light = 0; light < lights.count(); ++light) {
+      const glm::vec3 center(lights.x[light], lights.y[light], lights.z[light]);
+      if (visible[light] && glm::distance(center, point) < lights.radius[light]) {
+        EXPECT_TRUE(reached.contains(light)) << light;
+      }
+    }
+  }
+}
+
+TEST(SphereTree, StaysSoundWhateverIsDoneToIt) {
+  for (uint32_t branching = 2; branching <= 8; ++branching)
+    for (uint32_t count : {0u, 1u, 2u, 3u, 9u, 500u}) {
+      Random random(branching * 1000 + count);
+      MovingLights lights(random, count);
+      SphereTree tree(branching);
+      tree.build(lights.now);
+      expect_sound(tree, lights.now, branching);
+      for (uint32_t frame = 1; frame < 12; ++frame) {
+        lights.move(random, 2);
+        tree.refit(lights.now);
+        expect_sound(tree, lights.now, branching);
+        tree.reinsert(lights.now, frame % 4, 4);
+        expect_sound(tree, lights.now, branching);
+        expect_complete(tree, lights.now, random);
+      }
+    }
+}
+
+TEST(SphereTree, LightsAtOnePointEndSomewhere) {
+  Random random(1);
+  MovingLights lights(random, 5000);
+  for (Light& light : lights.lights) light.position = {1, 2, 3}, light.radius = 2;
+  lights.fill();
+  SphereTree tree(8);
+  tree.build(lights.now);
+  expect_sound(tree, lights.now, 8);
+  tree.reinsert(lights.now, 0, 16);
+  expect_sound(tree, lights.now, 8);
+}
+
+TEST(SphereTree, RefittingAnUnchangedFrameChangesNothing) {
+  Random random(2);
+  MovingLights lights(random, 300);
+  SphereTree tree(8);
+  tree.build(lights.now);
+  std::vector<uint8_t> all(300, 1);
+  SpherePacking before, after;
+  before.build(tree, lights.now, all);
+  tree.refit(lights.now);
+  after.build(tree, lights.now, all);
+  ASSERT_EQ(before.nodes().size(), after.nodes().size());
+  EXPECT_EQ(std::memcmp(before.nodes().data(), after.nodes().data(), before.nodes().size_bytes()), 0);
+}
+
+TEST(SphereTree, WhatIsOutOfViewIsNotPacked) {
+  Random random(3);
+  MovingLights lights(random, 200);
+  SphereTree tree(4);
+  tree.build(lights.now);
+  SpherePacking packing;
+  packing.build(tree, lights.now, std::vector<uint8_t>(200, 0));
+  EXPECT_TRUE(packing.nodes().empty());
+  std::vector<uint8_t> one(200, 0);
+  one[77] = 1;
+  packing.build(tree, lights.now, one);
+  ASSERT_EQ(packing.nodes().size(), 1u);
+  EXPECT_EQ(packing.nodes()[0].light, 77u);
+}
+
+}  // namespace
+}  // namespace ml
