@@ -26,8 +26,6 @@ class Exactness::Replaceable final : public Algorithm {
   ShadeShaders shade_shaders() const override { return (*inner_)->shade_shaders(); }
   std::vector<uint32_t> shade_constants() const override { return (*inner_)->shade_constants(); }
   bool walks_together() const override { return (*inner_)->walks_together(); }
-  void create_gpu(gpu::Device& owner) override { (*inner_)->create_gpu(owner); }
-  void cull(gpu::Commands& commands, const FrameInput& frame) override { (*inner_)->cull(commands, frame); }
 
  private:
   std::shared_ptr<std::unique_ptr<Algorithm>> inner_;
