@@ -14,7 +14,7 @@ layout(scalar, binding = 16) readonly buffer Visible {
 layout(scalar, binding = 17) writeonly buffer Bounds { ScreenBounds bounds[]; };
 
 const float none = 3e38;
-const float widen_pixels = 1.0 / 64.0;
+const float widen_pixels = 1.0 / 256.0;  // as the froxel bounds
 const uint most_corners = 16u;  // of a clipped face: 4 and one for each plane, and room for what rounding bends
 
 // Window coordinates (slopes or metres) and depths.
@@ -116,6 +116,9 @@ void main() {
   const vec2 edge = vec2(view.left_edge, view.top_edge);
   const vec2 pixels = vec2(view.resolution) / (vec2(view.right_edge, view.bottom_edge) - edge);
   const vec2 a = (low.xy - edge) * pixels, b = (high.xy - edge) * pixels;  // rows grow downwards: pixels.y < 0
-  bounds[place] = ScreenBounds(vec2(a.x, b.y) - widen_pixels, vec2(b.x, a.y) + widen_pixels, low.z * (low.z > 0.0 ? 0.99999 : 1.00001),
-                               high.z * (high.z > 0.0 ? 1.00001 : 0.99999));
+  // First and last pixel whose centre is inside.
+  const vec2 first = ceil(vec2(a.x, b.y) - (0.5 + widen_pixels)), last = floor(vec2(b.x, a.y) - (0.5 - widen_pixels));
+  bounds[place] =
+      ScreenBounds(first, last, low.z * (low.z > 0.0 ? 0.99999 : 1.00001), high.z * (high.z > 0.0 ? 1.00001 : 0.99999));
+  if (any(greaterThan(first, last))) bounds[place] = ScreenBounds(vec2(none), vec2(-none), none, -none);
 }

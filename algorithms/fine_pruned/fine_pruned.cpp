@@ -80,8 +80,6 @@ AlgorithmEntry fine_pruned_entry() {
   entry.info.name = "fine_pruned";
   entry.info.summary = "tile lists built on the GPU, pruned by true volumes against every pixel";
   entry.info.paper = "Mikkelsen, Fine Pruned Tiled Light Lists, GPU Pro 7, 2016";
-  // What the software driver's loops allow where one tile holds them all.
-  entry.info.max_lights = 262140;
   entry.info.cpu_stages = {"cull", "sort", "upload"};
   entry.info.gpu_stages = {"bounds", "coarse", "lists", "shade"};
   entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};

@@ -62,10 +62,10 @@ void ListPasses::record(gpu::Commands& commands, const gpu_data::ViewData& view,
     reserve(packed_lists_, uint64_t{tiles_} * ML_PACKED_WORDS * 4);
   } else {
     reserve(tile_lists_, uint64_t{tiles_} * 8);
-    // Half a tile's width of rounding for each list, where there is room; a tile for which there is none in
-    // the end walks all visible lights.
+    // Some room for lights that the device's own rounding puts into one tile more. A tile for which there is
+    // none in the end walks all visible lights.
     const uint64_t limit = std::min<uint64_t>(device_.limits().storage_buffer_range / 4, ML_PRUNED_ALL - 1);
-    reserve(list_lights_, std::min(entries + entries / 16 + 64, limit) * 4);
+    reserve(list_lights_, std::min(entries + entries / 4 + 1024, limit) * 4);
   }
   gpu::Bindings list = frame;
   bindings(list);

@@ -21,8 +21,7 @@ struct VisibleHeader {
 };
 ML_SIZE(VisibleHeader, 16);
 
-// Where a light can be seen: rectangle of pixel positions (the first pixel's centre is 0.5) and view depths.
-// Empty: low > high.
+// Where a light can be seen: first and last pixel, whole numbers, and view depths. Empty: low > high.
 struct ScreenBounds {
   vec2 low, high;   // px
   float near, far;  // m

@@ -37,7 +37,7 @@ shared uint survivors[2];                     // which of a chunk's lights hold 
 shared uint kept[ML_PACKED_LIGHTS];
 
 FourPoints points;
-ScreenBounds tile_bounds;  // centres of the tile's pixels
+ScreenBounds tile_bounds;
 
 // Pixels of a partial tile that lie outside the picture repeat its last row or column.
 void load_points() {
@@ -64,7 +64,7 @@ void load_points() {
     atomicMax(depth_high, bits);
   }
   barrier();
-  tile_bounds = ScreenBounds(vec2(corner) + 0.5, vec2(min(corner + ML_PRUNED_TILE - 1u, last)) + 0.5, uintBitsToFloat(depth_low),
+  tile_bounds = ScreenBounds(vec2(corner), vec2(min(corner + ML_PRUNED_TILE - 1u, last)), uintBitsToFloat(depth_low),
                              uintBitsToFloat(depth_high));
 }
 
