@@ -143,6 +143,38 @@ TEST_F(HardCases, FinePruned_CameraInsideLights) {
   EXPECT_GT(check.contributing(), 0u);
 }
 
+TEST_F(HardCases, FinePruned_ManySmallHulls) {
+  // So many that faces, edges and corners of the hulls fall on the edges of tiles, where bounds a few percent
+  // too small would show. Cones up to where they are no longer narrowed, and a little beyond.
+  PrunedCheck check(yard(), 320, 180);
+  Random random(77);
+  std::vector<Light> lights;
+  for (uint32_t i = 0; i < 4000; ++i) {
+    const glm::dvec3 at(static_cast<double>(random.uniform(-14, 14)),
+                        static_cast<double>(random.uniform(0, 3)),
+                        static_cast<double>(random.uniform(-12, 11)));
+    const glm::vec3 axis(random.uniform(-1, 1), random.uniform(-2, -0.3f), random.uniform(-1, 1));
+    const Light cone = spot(at, random.uniform(2, 6), axis, 1, random.uniform(5, 58));
+    const glm::vec3 size(random.uniform(0.2f, 2), random.uniform(0.2f, 2), random.uniform(0.2f, 2));
+    switch (i % 5) {
+      case 0:
+        lights.push_back(box(at, axis, {1, 0, 0}, size));
+        break;
+      case 1:
+        lights.push_back(capsule(at, size.x, axis, size.y));
+        break;
+      case 2:
+        lights.push_back(wedge(cone, {1, 0, 0}, size.x));
+        break;
+      default:
+        lights.push_back(cone);
+    }
+  }
+  check.load(camera_at({0, 3, 14}, {0, 1, -10}, 320, 180), lights);
+  check.expect_lossless();
+  EXPECT_GT(check.contributing(), 320u * 180u);
+}
+
 TEST_F(HardCases, FinePruned_SkyAlone) {
   PrunedCheck check(floor_at({0, 0, 0}, 4), 33, 20);
   check.load(camera_at({0, 5, 0}, {0, 9, -1}, 33, 20), std::vector<Light>(100, omni({0, 6, 0}, 50)));
