@@ -25,6 +25,8 @@ namespace ml {
 namespace gpu {
 class Commands;
 class Device;
+struct Binding;
+struct Constant;
 }  // namespace gpu
 struct FrameTargets;  // harness/frame/targets.h: g-buffer and result of one resolution
 struct ContributingLists;
@@ -86,6 +88,9 @@ struct PrepareCounters {
            tree_cells = 0;  // cells with lights that hold a list, a tree; 0 where there are no trees
   uint64_t overflow_tiles = 0,
            overflow_lights = 0;  // demand beyond the algorithm's caps; 0 for lossless ones
+  // Lists built on the GPU, known after a counting lap (Algorithm::read_counters): lights in a tile's list,
+  // means over all tiles, before and after fine pruning.
+  double coarse_lights = 0, fine_lights = 0;
 };
 
 // A SPIR-V module that the build put into the program.
@@ -116,9 +121,18 @@ class Algorithm {
   // CURSOR_RUNS).
   virtual bool walks_together() const { return false; }
 
-  // GPU list building, each pass in a named span. Default: none.
-  virtual void create_gpu(gpu::Device&) {}
-  virtual void cull(gpu::Commands&, const FrameInput&) {}
+  // GPU list building. Default: none.
+  //
+  // Once, before the first frame. `shared`: the specialization constants of shaders/light_eval.glsl, for
+  // passes that look at lights. The device outlives the algorithm.
+  virtual void create_gpu(gpu::Device&, const std::vector<gpu::Constant>& /*shared*/) {}
+  // Records the passes of the frame that prepare() saw last, each in a named span. `frame`: what they may
+  // bind, the frame's View, Depth, Surface, Lights and Extras and the algorithm's upload buffers.
+  virtual void cull(gpu::Commands&, const FrameInput&, const std::vector<gpu::Binding>& /*frame*/) {}
+  // Adds the device buffers that cull() fills and the shading loop binds; asked for after each cull().
+  virtual void gpu_bindings(std::vector<gpu::Binding>&) const {}
+  // After a counting lap: reads back, in submissions of its own, what counters() cannot know without the GPU.
+  virtual void read_counters(gpu::Commands&) {}
 };
 
 // One line of the registry.

@@ -4,6 +4,7 @@
 #include "algorithms/algorithm.h"
 #include "algorithms/brute_force/brute_force.h"
 #include "algorithms/clustered/clustered.h"
+#include "algorithms/fine_pruned/fine_pruned.h"
 #include "algorithms/hybrid/hybrid.h"
 #include "algorithms/ideal/ideal.h"
 #include "algorithms/light_bvh/light_bvh.h"
@@ -14,12 +15,8 @@ namespace ml {
 
 const std::vector<AlgorithmEntry>& algorithm_registry() {
   static const std::vector<AlgorithmEntry> entries{
-      brute_force_entry(),
-      ideal_entry(),
-      clustered_entry(),
-      light_tree_entry(),
-      hybrid_entry(),
-      light_bvh_entry(),
+      brute_force_entry(), ideal_entry(),       clustered_entry(), light_tree_entry(),
+      hybrid_entry(),      fine_pruned_entry(), light_bvh_entry(),
   };
   return entries;
 }

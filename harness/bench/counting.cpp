@@ -63,7 +63,9 @@ std::map<std::string, double> FrameCounters::named() const {
           {"list_pixels", exact(list_pixels)},
           {"tree_pixels", exact(tree_pixels)},
           {"overflow_tiles", exact(prepare.overflow_tiles)},
-          {"overflow_lights", exact(prepare.overflow_lights)}};
+          {"overflow_lights", exact(prepare.overflow_lights)},
+          {"coarse_lights", prepare.coarse_lights},
+          {"fine_lights", prepare.fine_lights}};
 }
 
 }  // namespace ml

@@ -22,7 +22,7 @@ const std::vector<Row>& metrics() {
       {"cpu_ms",
        "prepare() on the CPU by stage (cull, sort, bin, build, upload) and in total, [repeat][frame]"},
       {"gpu_ms",
-       "the device's time by pass (cull, shade) and in total, [repeat][frame]; on a software device this is "
+       "the device's time by pass (bounds, coarse, lists, shade) and in total, [repeat][frame]; on a software device this is "
        "CPU time"},
       {"in_frustum", "lights left after culling against the view, per frame"},
       {"listed", "lights in the list that a pixel walks, mean over lit pixels"},
@@ -35,6 +35,8 @@ const std::vector<Row>& metrics() {
       {"list_bytes", "bytes of lists and trees that the device reads"},
       {"overflow_tiles", "tiles whose demand was over an algorithm's caps"},
       {"overflow_lights", "lights over those caps"},
+      {"coarse_lights", "lists built on the GPU: lights in a tile's list before fine pruning, mean over tiles"},
+      {"fine_lights", "the same after fine pruning"},
       {"harness.overhead_fraction", "part of the run's wall time that is in no span"},
   };
   return rows;

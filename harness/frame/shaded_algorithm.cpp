@@ -20,14 +20,14 @@ std::vector<gpu::Constant> constants_of(const gpu::Device& device, const Effects
 }
 
 std::unique_ptr<Algorithm> created(gpu::Device& device, const AlgorithmEntry& entry,
-                                   const Parameters& parameters) {
+                                   const Parameters& parameters, const Effects& effects) {
   bool wants_fp64 = false;
   for (const auto& [name, value] : parameters.values())
     if (const auto* word = std::get_if<std::string>(&value)) wants_fp64 |= *word == "fp64";
   if (wants_fp64 && !device.limits().fp64)
     throw SystemError(entry.info.name + ": '" + device.info().name + "' has no 64-bit floats");
   auto algorithm = entry.create(parameters);
-  algorithm->create_gpu(device);
+  algorithm->create_gpu(device, effects.constants());
   return algorithm;
 }
 
@@ -37,7 +37,7 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
                                  const Parameters& parameters, const Effects& effects)
     : device_(device),
       entry_(entry),
-      algorithm_(created(device, entry, parameters)),
+      algorithm_(created(device, entry, parameters, effects)),
       names_(algorithm_->buffers()),
       blocks_(device, entry.info.name + ": sampled blocks"),
       constants_(constants_of(device, effects, *algorithm_, false)),
@@ -61,6 +61,9 @@ size_t ShadedAlgorithm::limit() const {
 uint64_t ShadedAlgorithm::upload_bytes() const {
   uint64_t sum = 0;
   for (const gpu::UploadBuffer& buffer : buffers_) sum += buffer.capacity();
+  gpu::Bindings own;
+  algorithm_->gpu_bindings(own);
+  for (const gpu::Binding& binding : own) sum += binding.buffer->bytes();
   return sum;
 }
 
@@ -75,6 +78,14 @@ gpu::Bindings ShadedAlgorithm::bindings(const DeviceFrame& frame) const {
   return list;
 }
 
+gpu::Bindings ShadedAlgorithm::cull(gpu::Commands& commands, const DeviceFrame& frame,
+                                    const FrameInput& input) {
+  gpu::Bindings list = bindings(frame);
+  algorithm_->cull(commands, input, list);
+  algorithm_->gpu_bindings(list);
+  return list;
+}
+
 void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input,
                              const gpu::ComputeProgram& program) {
   bool twins = false;
@@ -83,9 +94,9 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
     auto span = commands.span("transfer");
     for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
   }
-  algorithm_->cull(commands, input);
+  const gpu::Bindings list = cull(commands, frame, input);
   auto span = commands.span("shade");
-  commands.dispatch(program, bindings(frame), std::span<const std::byte>{}, (input.view.resolution.x + 7) / 8,
+  commands.dispatch(program, list, std::span<const std::byte>{}, (input.view.resolution.x + 7) / 8,
                     (input.view.resolution.y + 7) / 8);
 }
 
@@ -102,6 +113,7 @@ void ShadedAlgorithm::count(DeviceFrame& frame, const FrameInput& input) {
   commands.begin(gpu::Timing::none);
   record(commands, frame, input, counting_);
   commands.submit();
+  algorithm_->read_counters(commands);
 }
 
 void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input,
@@ -117,8 +129,7 @@ void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input,
   commands.begin(gpu::Timing::none);
   for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
   commands.transfer(blocks_);
-  algorithm_->cull(commands, input);
-  commands.dispatch(*sampled_, bindings(frame), std::span<const std::byte>{},
+  commands.dispatch(*sampled_, cull(commands, frame, input), std::span<const std::byte>{},
                     static_cast<uint32_t>(blocks.size()));
   commands.submit();
 }

@@ -38,6 +38,8 @@ class ShadedAlgorithm final : private UploadMemory {
   std::span<std::byte> map(uint32_t slot, size_t bytes) override;
   size_t limit() const override;
   gpu::Bindings bindings(const DeviceFrame& frame) const;
+  // Records list building; what the shading pass binds.
+  gpu::Bindings cull(gpu::Commands& commands, const DeviceFrame& frame, const FrameInput& input);
   void record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input,
               const gpu::ComputeProgram& program);
 

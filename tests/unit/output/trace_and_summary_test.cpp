@@ -109,6 +109,20 @@ TEST(Summary, ShowsMediansOfTheLapsThatAreDone) {
   EXPECT_TRUE(contains(line_with(table, "ideal"), "1.00"));
 }
 
+TEST(Summary, CullIsAllThatTheDeviceDoesBeforeShading) {
+  Result result = make_result("cpu");
+  const std::string none = line_with(summary_table(result), "clustered");
+  for (uint32_t repeat = 0; repeat < 2; ++repeat)
+    for (uint32_t frame = 0; frame < 2; ++frame) {
+      result.cases[0].gpu_ms.set("bounds", repeat, frame, 3.25);
+      result.cases[0].gpu_ms.set("lists", repeat, frame, 13.5);
+      result.cases[0].gpu_ms.set("transfer", repeat, frame, 100);
+    }
+  EXPECT_TRUE(contains(line_with(summary_table(result), "clustered"), " 16.75 "));
+  EXPECT_FALSE(contains(none, "16.75"));
+  EXPECT_TRUE(contains(line_with(summary_table(result), "ideal"), " - "));
+}
+
 TEST(Summary, EfficiencyNeedsTheIdealOfTheSameSetup) {
   Result result = make_result("cpu");
   result.cases[1].lights = 16384;

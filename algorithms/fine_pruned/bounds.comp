@@ -1,0 +1,124 @@
+// Step 1(c): the screen bounds of each visible light. The faces of its hull are clipped against the view, corners of the view that lie in the
+// hull are added, and the bounds of the ball around the light cut off what is left over. The view has no far end: depth is reversed.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "light_hull.glsl"
+#include "pruned_lists.h"
+
+layout(local_size_x = 64) in;
+layout(scalar, binding = 16) readonly buffer Visible {
+  VisibleHeader visible;
+  uint visible_lights[];
+};
+layout(scalar, binding = 17) writeonly buffer Bounds { ScreenBounds bounds[]; };
+
+const float none = 3e38;
+const float widen_pixels = 1.0 / 256.0;  // as the froxel bounds
+const uint most_corners = 16u;  // of a clipped face: 4 and one for each plane, and room for what rounding bends
+
+// Window coordinates (slopes or metres) and depths.
+struct WindowBounds {
+  vec3 low, high;
+};
+
+// m: a little before the near plane, whose surface points may round to before it.
+float near_depth() { return view.near - 1e-5 * abs(view.near); }
+
+// Near, left, right, bottom, top: inside where dot(plane.xyz, p) + plane.w >= 0.
+vec4 view_plane(uint plane) {
+  if (plane == 0u) return vec4(0, 0, 1, -near_depth());
+  const bool orthographic = view.orthographic != 0u;
+  const float edge = plane == 1u ? view.left_edge : plane == 2u ? view.right_edge : plane == 3u ? view.bottom_edge : view.top_edge;
+  const float sign = (plane & 1u) != 0u ? 1.0 : -1.0;
+  const vec2 axis = plane <= 2u ? vec2(sign, 0) : vec2(0, sign);
+  return vec4(axis, orthographic ? 0.0 : -sign * edge, orthographic ? -sign * edge : 0.0);
+}
+
+void add_point(vec3 p, float error, inout WindowBounds window) {
+  const float scale = view.orthographic != 0u ? 1.0 : 1.0 / max(p.z, 0.5 * view.near);
+  const vec2 place = p.xy * scale;
+  const float around = error * scale * (1.0 + max(abs(place.x), abs(place.y)));
+  window.low = min(window.low, vec3(place - around, p.z - error));
+  window.high = max(window.high, vec3(place + around, p.z + error));
+}
+
+void add_face(LightHull hull, uvec4 corners, inout WindowBounds window) {
+  vec3 face[most_corners];
+  vec3 kept[most_corners];
+  for (uint i = 0u; i < 4u; ++i) face[i] = hull_corner(hull, corners[i]);
+  uint count = 4u;
+  for (uint p = 0u; p < 5u && count != 0u; ++p) {
+    const vec4 plane = view_plane(p);
+    uint left = 0u;
+    vec3 from = face[count - 1u];
+    float from_inside = dot(plane.xyz, from) + plane.w;
+    for (uint i = 0u; i < count; ++i) {
+      const vec3 to = face[i];
+      const float to_inside = dot(plane.xyz, to) + plane.w;
+      if ((from_inside >= 0.0) != (to_inside >= 0.0) && left < most_corners)
+        kept[left++] = mix(from, to, from_inside / (from_inside - to_inside));
+      if (to_inside >= 0.0 && left < most_corners) kept[left++] = to;
+      from = to;
+      from_inside = to_inside;
+    }
+    for (uint i = 0u; i < left; ++i) face[i] = kept[i];
+    count = left;
+  }
+  for (uint i = 0u; i < count; ++i) add_point(face[i], hull.error, window);
+}
+
+WindowBounds hull_bounds(LightHull hull) {
+  WindowBounds window = WindowBounds(vec3(none), vec3(-none));
+  add_face(hull, uvec4(0, 1, 3, 2), window);
+  add_face(hull, uvec4(4, 5, 7, 6), window);
+  add_face(hull, uvec4(0, 1, 5, 4), window);
+  add_face(hull, uvec4(2, 3, 7, 6), window);
+  add_face(hull, uvec4(0, 2, 6, 4), window);
+  add_face(hull, uvec4(1, 3, 7, 5), window);
+  const float z = near_depth(), scale = view.orthographic != 0u ? 1.0 : z;
+  for (uint i = 0u; i < 4u; ++i) {
+    const vec2 place = vec2((i & 1u) != 0u ? view.right_edge : view.left_edge, (i & 2u) != 0u ? view.top_edge : view.bottom_edge);
+    const vec3 corner = vec3(place * scale, z);
+    if (hull_holds(hull, corner)) add_point(corner, 0.0, window);
+  }
+  return window;
+}
+
+// Slopes between which a ball's circle in the plane of one axis and depth is seen, as froxels/binning_scalar.cpp has it (Mara & McGuire 2013).
+vec2 ball_interval(float a, float z, float radius) {
+  const float distance2 = a * a + z * z, tangent2 = distance2 - radius * radius, tangent = sqrt(max(tangent2, 0.0));
+  const float behind = z - view.near, chord = sqrt(max(radius * radius - behind * behind, 0.0));
+  const float high_a = a * tangent + z * radius, high_z = z * tangent - a * radius;
+  const float low_a = a * tangent - z * radius, low_z = z * tangent + a * radius;
+  const bool high_seen = tangent2 > 0.0 && high_z * tangent >= view.near * distance2;
+  const bool low_seen = tangent2 > 0.0 && low_z * tangent >= view.near * distance2;
+  return vec2(low_seen ? low_a / low_z : (a - chord) / view.near, high_seen ? high_a / high_z : (a + chord) / view.near);
+}
+
+WindowBounds ball_bounds(LightCore light) {
+  const float radius = light_bound(light) * 1.00002 + hull_absolute * sum_of_sizes(light.position) + hull_least;
+  const vec3 centre = to_view(light.position);
+  vec2 across = vec2(centre.x - radius, centre.x + radius), up = vec2(centre.y - radius, centre.y + radius);
+  if (view.orthographic == 0u) {
+    across = ball_interval(centre.x, centre.z, radius);
+    up = ball_interval(centre.y, centre.z, radius);
+  }
+  return WindowBounds(vec3(across.x, up.x, centre.z - radius), vec3(across.y, up.y, centre.z + radius));
+}
+
+void main() {
+  const uint place = gl_GlobalInvocationID.x;
+  if (place >= visible.count) return;
+  const LightCore light = lights[visible_lights[place]];
+  const WindowBounds hull = hull_bounds(light_hull(light)), ball = ball_bounds(light);
+  const vec3 low = max(hull.low, ball.low), high = min(hull.high, ball.high);
+  const vec2 edge = vec2(view.left_edge, view.top_edge);
+  const vec2 pixels = vec2(view.resolution) / (vec2(view.right_edge, view.bottom_edge) - edge);
+  const vec2 a = (low.xy - edge) * pixels, b = (high.xy - edge) * pixels;  // rows grow downwards: pixels.y < 0
+  // First and last pixel whose centre is inside.
+  const vec2 first = ceil(vec2(a.x, b.y) - (0.5 + widen_pixels)), last = floor(vec2(b.x, a.y) - (0.5 - widen_pixels));
+  bounds[place] =
+      ScreenBounds(first, last, low.z * (low.z > 0.0 ? 0.99999 : 1.00001), high.z * (high.z > 0.0 ? 1.00001 : 0.99999));
+  if (any(greaterThan(first, last))) bounds[place] = ScreenBounds(vec2(none), vec2(-none), none, -none);
+}

@@ -1,0 +1,98 @@
+#include "algorithms/fine_pruned/fine_pruned.h"
+
+#include <cstring>
+
+#include "algorithms/fine_pruned/list_passes.h"
+#include "algorithms/fine_pruned/visible_lights.h"
+#include "algorithms/froxels/froxel_parameters.h"
+#include "spirv/fine_pruned_shade.h"
+#include "spirv/fine_pruned_shade_counting.h"
+
+namespace ml {
+namespace {
+
+enum Slot : uint32_t { visible_slot };
+
+class FinePruned final : public Algorithm {
+ public:
+  explicit FinePruned(const Parameters& p) : together_(walk_together(p)) {
+    settings_.packed = p.choice("caps") == "paper";
+    settings_.fine = p.choice("prune") == "fine";
+  }
+
+  void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override {
+    lights_.cull(frame, spans);
+    lights_.sort(frame, settings_.packed ? ML_PACKED_VISIBLE : ML_LIGHT_ID_MASK, spans);
+    auto span = spans.span("upload");
+    entries_ = settings_.packed ? 0 : lights_.most_entries(frame);
+    const gpu_data::VisibleHeader& header = lights_.header();
+    const size_t index_bytes = lights_.lights().size_bytes();
+    std::span<std::byte> to = memory.map(visible_slot, sizeof header + index_bytes);
+    std::memcpy(to.data(), &header, sizeof header);
+    if (index_bytes > 0) std::memcpy(to.data() + sizeof header, lights_.lights().data(), index_bytes);
+
+    counters_ = {};
+    counters_.in_frustum = lights_.in_frustum();
+    counters_.overflow_lights = lights_.in_frustum() - header.count;
+    counters_.list_bytes = to.size();
+  }
+
+  PrepareCounters counters() const override { return counters_; }
+  std::vector<std::string> buffers() const override { return {"Visible"}; }
+  bool walks_together() const override { return together_; }
+  ShadeShaders shade_shaders() const override { return {fine_pruned_shade, fine_pruned_shade_counting}; }
+  std::vector<uint32_t> shade_constants() const override { return {settings_.packed}; }
+
+  void create_gpu(gpu::Device& device, const std::vector<gpu::Constant>& shared) override {
+    passes_ = std::make_unique<ListPasses>(device, shared, settings_);
+  }
+  void cull(gpu::Commands& commands, const FrameInput& frame, const gpu::Bindings& bound) override {
+    passes_->record(commands, frame.view, bound, lights_.header().count, entries_);
+  }
+  void gpu_bindings(gpu::Bindings& list) const override { passes_->bindings(list); }
+
+  void read_counters(gpu::Commands& commands) override {
+    const ListPasses::Counts sums = passes_->read(commands);
+    const uint64_t cut = lights_.in_frustum() - lights_.header().count;
+    const double tiles = sums.tiles ? static_cast<double>(sums.tiles) : 1;
+    counters_.coarse_lights = static_cast<double>(sums.coarse) / tiles;
+    counters_.fine_lights = static_cast<double>(sums.listed) / tiles;
+    counters_.overflow_tiles = sums.overflow_tiles;
+    counters_.overflow_lights = cut + sums.overflow_lights;
+    counters_.list_bytes =
+        sizeof(gpu_data::VisibleHeader) + lights_.lights().size_bytes() +
+        (settings_.packed ? sums.tiles * ML_PACKED_WORDS * 4 : sums.tiles * 8 + sums.listed * 4);
+  }
+
+ private:
+  PruneSettings settings_;
+  bool together_;
+  VisibleLightList lights_;
+  uint64_t entries_ = 0;
+  PrepareCounters counters_;
+  std::unique_ptr<ListPasses> passes_;
+};
+
+}  // namespace
+
+AlgorithmEntry fine_pruned_entry() {
+  AlgorithmEntry entry;
+  entry.info.name = "fine_pruned";
+  entry.info.summary = "tile lists built on the GPU, pruned by true volumes against every pixel";
+  entry.info.paper = "Mikkelsen, Fine Pruned Tiled Light Lists, GPU Pro 7, 2016";
+  entry.info.cpu_stages = {"cull", "sort", "upload"};
+  entry.info.gpu_stages = {"bounds", "coarse", "lists", "shade"};
+  entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
+  entry.parameters = {
+      ParameterInfo::choice("prune", "fine", {"fine", "coarse"},
+                            "lists by true volumes against pixels, or by screen bounds alone (section 2.4)"),
+      ParameterInfo::choice("caps", "exact", {"exact", "paper"},
+                            "lists of any length, or 64 coarse and 24 pruned lights a tile, 1024 in view, "
+                            "loss reported (section 2.5)"),
+      walk_parameter(),
+  };
+  entry.create = [](const Parameters& parameters) { return std::make_unique<FinePruned>(parameters); };
+  return entry;
+}
+
+}  // namespace ml

@@ -1,0 +1,81 @@
+// Whether points lie in a light's true volume (step 2(d)): four points at once, those of a thread. The same operations as light_sample()
+// where that decides by exactly rounded ones; a little wider where it divides or takes roots. The surface's normal is no part of the volume.
+#ifndef ML_LIGHT_VOLUME_GLSL
+#define ML_LIGHT_VOLUME_GLSL
+#include "light_hull.glsl"
+
+struct FourPoints {
+  vec4 x, y, z;  // m, camera-relative, world axes
+  bvec4 lit;     // false for the sky
+};
+
+// Vectors from the points to the light, and their squared lengths.
+struct FourWays {
+  vec4 x, y, z;
+  vec4 squared;
+};
+
+FourWays ways_to(FourPoints points, LightCore light, bool segment) {
+  precise vec4 x = vec4(light.position.x) - points.x;
+  precise vec4 y = vec4(light.position.y) - points.y;
+  precise vec4 z = vec4(light.position.z) - points.z;
+  if (segment) {
+    const LightExtra extra = extras[light.id_shape & ML_LIGHT_ID_MASK];
+    const float sx = extra.side.x, sy = extra.side.y, sz = extra.side.z, limit = extra.half_length;
+    precise vec4 along = clamp(-(x * sx + y * sy + z * sz), vec4(-limit), vec4(limit));
+    precise vec4 nx = x + along * sx;
+    precise vec4 ny = y + along * sy;
+    precise vec4 nz = z + along * sz;
+    x = nx;
+    y = ny;
+    z = nz;
+  }
+  precise vec4 squared = x * x + y * y + z * z;
+  return FourWays(x, y, z, squared);
+}
+
+bvec4 both(bvec4 a, bvec4 b) { return bvec4(a.x && b.x, a.y && b.y, a.z && b.z, a.w && b.w); }
+
+bvec4 within_radius(FourPoints points, FourWays ways, LightCore light) {
+  precise float squared = light.radius * light.radius;
+  return both(points.lit, lessThan(ways.squared, vec4(squared)));
+}
+
+// Omni lights and capsules.
+bool in_ball(FourPoints points, LightCore light) {
+  return any(within_radius(points, ways_to(points, light, is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE)), light));
+}
+
+// Spots and wedges.
+bool in_cone(FourPoints points, LightCore light) {
+  const bool wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
+  const FourWays ways = ways_to(points, light, wedge);
+  const bvec4 near = within_radius(points, ways, light);
+  if (!wedge && !is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT) || !any(near)) return any(near);
+  const LightExtra extra = extras[light.id_shape & ML_LIGHT_ID_MASK];
+  const vec4 along = -(ways.x * extra.direction.x + ways.y * extra.direction.y + ways.z * extra.direction.z);
+  // A point on the light has no direction: it counts.
+  const vec4 edge = (extra.cos_outer - cone_margin) * sqrt(ways.squared);
+  const vec4 beyond = along - edge;
+  const bvec4 on_light = lessThan(ways.squared, vec4(on_point_distance_squared));
+  return any(both(near, bvec4(beyond.x > 0.0 || on_light.x, beyond.y > 0.0 || on_light.y, beyond.z > 0.0 || on_light.z,
+                              beyond.w > 0.0 || on_light.w)));
+}
+
+bvec4 between(FourWays ways, vec3 axis, float half_extent) {
+  const vec4 place = ways.x * axis.x + ways.y * axis.y + ways.z * axis.z;
+  const vec4 rounding = 1e-6 * (abs(ways.x) + abs(ways.y) + abs(ways.z));
+  return lessThan(abs(place), half_extent * 1.00001 + rounding);
+}
+
+bool in_box_volume(FourPoints points, LightCore light) {
+  const FourWays ways = ways_to(points, light, false);
+  if (!is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) return any(within_radius(points, ways, light));
+  const LightExtra extra = extras[light.id_shape & ML_LIGHT_ID_MASK];
+  const vec3 half_extents = box_half_extents(extra);
+  const bvec4 inside = both(both(between(ways, extra.side, half_extents.x), between(ways, box_up(extra), half_extents.y)),
+                            between(ways, extra.direction, half_extents.z));
+  return any(both(points.lit, inside));
+}
+
+#endif

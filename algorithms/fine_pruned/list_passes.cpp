@@ -1,0 +1,119 @@
+#include "algorithms/fine_pruned/list_passes.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "spirv/fine_pruned_bounds.h"
+#include "spirv/fine_pruned_offsets.h"
+#include "spirv/fine_pruned_tiles.h"
+
+namespace ml {
+namespace {
+
+// Values of MODE in tiles.comp.
+enum Mode : uint32_t { mode_count, mode_lists, mode_packed };
+
+std::vector<gpu::Constant> constants(const std::vector<gpu::Constant>& shared, Mode mode, bool fine) {
+  std::vector<gpu::Constant> list = shared;
+  list.push_back({16, mode});
+  list.push_back({17, fine});
+  return list;
+}
+
+uint32_t tiles_along(uint32_t pixels) {
+  return (pixels + ML_PRUNED_TILE - 1) / ML_PRUNED_TILE;
+}
+
+}  // namespace
+
+ListPasses::ListPasses(gpu::Device& device, const std::vector<gpu::Constant>& shared,
+                       const PruneSettings& settings)
+    : device_(device),
+      settings_(settings),
+      bounds_(device, fine_pruned_bounds, "fine_pruned: bounds", shared),
+      lists_(device, fine_pruned_tiles, "fine_pruned: lists",
+             constants(shared, settings.packed ? mode_packed : mode_lists, settings.fine)) {
+  if (!settings.packed) {
+    count_ = std::make_unique<gpu::ComputeProgram>(device, fine_pruned_tiles, "fine_pruned: coarse",
+                                                   constants(shared, mode_count, false));
+    offsets_ = std::make_unique<gpu::ComputeProgram>(device, fine_pruned_offsets, "fine_pruned: offsets");
+  }
+  for (Grown* grown : {&light_bounds_, &tile_lists_, &list_lights_, &packed_lists_, &tile_counts_})
+    reserve(*grown, 16);
+}
+
+void ListPasses::reserve(Grown& grown, uint64_t bytes) {
+  const uint64_t had = grown.buffer ? grown.buffer->bytes() : 0;
+  if (bytes <= had) return;
+  // Larger than the device allows is refused by the buffer, which names itself.
+  const uint64_t limit = device_.limits().storage_buffer_range / 4 * 4;
+  grown.buffer =
+      std::make_unique<gpu::Buffer>(device_, std::max(bytes, std::min(2 * had, limit)),
+                                    gpu::MemoryKind::device, std::string("fine_pruned: ") + grown.name);
+}
+
+void ListPasses::record(gpu::Commands& commands, const gpu_data::ViewData& view, const gpu::Bindings& frame,
+                        uint32_t visible, uint64_t entries) {
+  const uint32_t columns = tiles_along(view.resolution.x), rows = tiles_along(view.resolution.y);
+  tiles_ = columns * rows;
+  reserve(light_bounds_, uint64_t{visible} * sizeof(gpu_data::ScreenBounds));
+  reserve(tile_counts_, uint64_t{tiles_} * 8);
+  if (settings_.packed) {
+    reserve(packed_lists_, uint64_t{tiles_} * ML_PACKED_WORDS * 4);
+  } else {
+    reserve(tile_lists_, uint64_t{tiles_} * 8);
+    // Some room for lights that the device's own rounding puts into one tile more. A tile for which there is
+    // none in the end walks all visible lights.
+    const uint64_t limit = std::min<uint64_t>(device_.limits().storage_buffer_range / 4, ML_PRUNED_ALL - 1);
+    reserve(list_lights_, std::min(entries + entries / 4 + 1024, limit) * 4);
+  }
+  gpu::Bindings list = frame;
+  bindings(list);
+  const gpu_data::PrunedPush push{
+      columns, tiles_,
+      static_cast<uint32_t>(std::min<uint64_t>(list_lights_.buffer->bytes() / 4, ML_PRUNED_ALL - 1))};
+  {
+    auto span = commands.span("bounds");
+    commands.dispatch(bounds_, list, push, (visible + 63) / 64);
+  }
+  if (!settings_.packed) {
+    auto span = commands.span("coarse");
+    commands.dispatch(*count_, list, push, columns, rows);
+    commands.dispatch(*offsets_, list, push, 1);
+  }
+  auto span = commands.span("lists");
+  commands.dispatch(lists_, list, push, columns, rows);
+}
+
+void ListPasses::bindings(gpu::Bindings& list) const {
+  for (const Grown* grown : {&light_bounds_, &tile_lists_, &list_lights_, &packed_lists_, &tile_counts_})
+    list.emplace_back(grown->name, *grown->buffer);
+}
+
+ListPasses::Counts ListPasses::read(gpu::Commands& commands) {
+  Counts sums;
+  sums.tiles = tiles_;
+  const size_t bytes = size_t{tiles_} * 8;
+  if (bytes == 0) return sums;
+  if (!readback_ || readback_->bytes() < bytes)
+    readback_ = std::make_unique<gpu::Buffer>(device_, bytes, gpu::MemoryKind::readback,
+                                              "fine_pruned: counts of tiles");
+  commands.begin(gpu::Timing::none);
+  commands.read_buffer(*tile_counts_.buffer, bytes, *readback_);
+  commands.submit();
+  std::vector<uint32_t> words(size_t{tiles_} * 2);
+  std::memcpy(words.data(), readback_->mapped().data(), bytes);
+  auto beyond = [](uint32_t demand, uint32_t limit) { return demand > limit ? demand - limit : 0; };
+  for (size_t tile = 0; tile < tiles_; ++tile) {
+    const uint32_t coarse = words[2 * tile], pruned = words[2 * tile + 1];
+    sums.coarse += coarse;
+    sums.listed += settings_.packed ? std::min(pruned, ML_PACKED_LIGHTS) : pruned;
+    if (!settings_.packed) continue;
+    const uint32_t lost = beyond(coarse, ML_PRUNED_CHUNK) + beyond(pruned, ML_PACKED_LIGHTS);
+    sums.overflow_lights += lost;
+    sums.overflow_tiles += lost > 0;
+  }
+  return sums;
+}
+
+}  // namespace ml

@@ -1,0 +1,52 @@
+// Steps 1(c) and 2 on the device: its programs and buffers.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "algorithms/algorithm.h"
+#include "algorithms/fine_pruned/pruned_lists.h"
+#include "harness/gpu/commands.h"
+
+namespace ml {
+
+struct PruneSettings {
+  bool packed = false;  // the chapter's lists and limits
+  bool fine = true;     // false: coarse lists are final
+};
+
+class ListPasses {
+ public:
+  ListPasses(gpu::Device& device, const std::vector<gpu::Constant>& shared, const PruneSettings& settings);
+
+  // Records the passes. `frame` binds the frame's resources and "Visible"; `entries`: lights that the lists
+  // of all tiles hold at most.
+  void record(gpu::Commands& commands, const gpu_data::ViewData& view, const gpu::Bindings& frame,
+              uint32_t visible, uint64_t entries);
+  // "TileLists", "ListLights", "PackedLists" and what else the passes write.
+  void bindings(gpu::Bindings& list) const;
+
+  // Sums over the tiles of the last frame, read back.
+  struct Counts {
+    uint64_t tiles = 0, coarse = 0, listed = 0, overflow_tiles = 0, overflow_lights = 0;
+  };
+  Counts read(gpu::Commands& commands);
+
+ private:
+  struct Grown {
+    const char* name;
+    std::unique_ptr<gpu::Buffer> buffer;
+  };
+  void reserve(Grown& grown, uint64_t bytes);
+
+  gpu::Device& device_;
+  PruneSettings settings_;
+  gpu::ComputeProgram bounds_, lists_;
+  std::unique_ptr<gpu::ComputeProgram> count_, offsets_;  // none when packed
+  Grown light_bounds_{"Bounds", {}}, tile_lists_{"TileLists", {}}, list_lights_{"ListLights", {}},
+      packed_lists_{"PackedLists", {}}, tile_counts_{"TileCounts", {}};
+  std::unique_ptr<gpu::Buffer> readback_;
+  uint32_t tiles_ = 0;
+};
+
+}  // namespace ml

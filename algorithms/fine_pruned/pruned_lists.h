@@ -1,0 +1,54 @@
+// What the passes of fine_pruned hand to each other, and the packed list of the chapter (section 2.5).
+#ifndef ML_FINE_PRUNED_LISTS_H
+#define ML_FINE_PRUNED_LISTS_H
+#include "shaders/shared/cpp_glsl.h"
+ML_NAMESPACE_BEGIN
+
+#define ML_PRUNED_TILE 16u   // px, side of a tile
+#define ML_PRUNED_GROUP 64u  // threads of a tile's workgroup, 2x2 pixels each
+#define ML_PRUNED_CHUNK 64u  // coarse lights that are pruned at once: bits of a thread's mask
+// Limits of the chapter.
+#define ML_PACKED_WORDS 8u       // 32 bytes a tile
+#define ML_PACKED_LIGHTS 24u     // in a tile's list
+#define ML_PACKED_VISIBLE 1024u  // in view: 10-bit indices
+
+// In front of the visible lights' indices, which are sorted by type: balls (omni, capsule), cones (spot,
+// wedge), boxes. A light's place in that order is its visible index.
+struct VisibleHeader {
+  uint count;
+  uint first_cone, first_box;  // visible indices at which the second and the third type begin
+  uint spare;
+};
+ML_SIZE(VisibleHeader, 16);
+
+// Where a light can be seen: first and last pixel, whole numbers, and view depths. Empty: low > high.
+struct ScreenBounds {
+  vec2 low, high;   // px
+  float near, far;  // m
+};
+ML_SIZE(ScreenBounds, 24);
+
+struct PrunedPush {
+  uint columns;   // tiles across
+  uint tiles;     // all of them
+  uint capacity;  // lights that the list buffer holds
+};
+ML_SIZE(PrunedPush, 12);
+
+// First light of a list that stands in the visible lights themselves: the list buffer had no room for the
+// tile, which then walks all of them.
+#define ML_PRUNED_ALL 0x80000000u
+
+// Three 10-bit indices and how many of them are in use, 0 to 3.
+ML_FUNCTION uint packed_word(uint a, uint b, uint c, uint count) {
+  return a | b << 10 | c << 20 | count << 30;
+}
+ML_FUNCTION uint packed_count(uint word) {
+  return word >> 30;
+}
+ML_FUNCTION uint packed_index(uint word, uint place) {
+  return word >> (place * 10u) & 0x3ffu;
+}
+
+ML_NAMESPACE_END
+#endif

@@ -1,0 +1,58 @@
+#include "algorithms/fine_pruned/visible_lights.h"
+
+#include <algorithm>
+#include <array>
+
+namespace ml {
+namespace {
+
+// The whole depth is one slice.
+FroxelGrid tile_grid(const gpu_data::ViewData& view) {
+  return FroxelGrid::make(view, ML_PRUNED_TILE, 1, 5, 0);
+}
+
+// Place in the sequence of loops over lights (section 2.4).
+size_t type_of(uint32_t id_shape) {
+  switch (id_shape >> 24) {
+    case ML_SHAPE_SPOT:
+    case ML_SHAPE_WEDGE:
+      return 1;
+    case ML_SHAPE_BOX:
+      return 2;
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
+void VisibleLightList::cull(const FrameInput& frame, Spans& spans) {
+  auto span = spans.span("cull");
+  const BoundsConstants constants(frame.view, tile_grid(frame.view));
+  visible_.count = 0;
+  if (frame.lights.count() > 0) simd::cull(frame.lights, 0, frame.lights.count(), constants, visible_);
+}
+
+void VisibleLightList::sort(const FrameInput& frame, uint32_t most, Spans& spans) {
+  auto span = spans.span("sort");
+  std::array<uint32_t, 3> counts{};
+  for (size_t i = 0; i < visible_.count; ++i)
+    ++counts[type_of(frame.lights.core[visible_.index[i]].id_shape)];
+  std::array<uint32_t, 3> next{0, counts[0], counts[0] + counts[1]};
+  header_.count = std::min(in_frustum(), most);
+  header_.first_cone = std::min(next[1], most);
+  header_.first_box = std::min(next[2], most);
+  if (sorted_.size() < visible_.count) sorted_.resize(visible_.count);
+  for (size_t i = 0; i < visible_.count; ++i) {
+    const uint32_t light = visible_.index[i];
+    sorted_[next[type_of(frame.lights.core[light].id_shape)]++] = light;
+  }
+}
+
+uint64_t VisibleLightList::most_entries(const FrameInput& frame) {
+  if (visible_.count == 0) return 0;
+  simd::bound(VisibleRun(visible_), BoundsConstants(frame.view, tile_grid(frame.view)), boxes_);
+  return count_pairs(boxes_, visible_.count);
+}
+
+}  // namespace ml

@@ -1,0 +1,36 @@
+// Steps 1(a) and 1(b): the lights in view, sorted by type of shape.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algorithms/algorithm.h"
+#include "algorithms/fine_pruned/pruned_lists.h"
+#include "algorithms/froxels/binning.h"
+
+namespace ml {
+
+class VisibleLightList {
+ public:
+  // Leaves out what is outside the view. Span "cull".
+  void cull(const FrameInput& frame, Spans& spans);
+  // Balls (omni, capsule), cones (spot, wedge), boxes; each type in ascending order of index. At most `most`
+  // lights are kept, the first ones in that order. Span "sort".
+  void sort(const FrameInput& frame, uint32_t most, Spans& spans);
+
+  uint32_t in_frustum() const { return static_cast<uint32_t>(visible_.count); }
+  const gpu_data::VisibleHeader& header() const { return header_; }
+  std::span<const uint32_t> lights() const { return std::span(sorted_).first(header_.count); }
+
+  // Entries that the lists of all tiles have at most: the tiles of every ball's box. Not less than what the
+  // device finds but for rounding at the edge of a tile.
+  uint64_t most_entries(const FrameInput& frame);
+
+ private:
+  VisibleLights visible_;
+  LightBoxes boxes_;
+  std::vector<uint32_t> sorted_;
+  gpu_data::VisibleHeader header_{};
+};
+
+}  // namespace ml
