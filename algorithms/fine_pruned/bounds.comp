@@ -25,7 +25,7 @@ struct WindowBounds {
 // m: a little before the near plane, whose surface points may round to before it.
 float near_depth() { return view.near - 1e-5 * abs(view.near); }
 
-// Near, left, right, bottom, top: inside where dot(plane.xyz, p) + plane.w >= 0.
+// 0 to 4: near, left, right, bottom, top. Inside where dot(plane.xyz, p) + plane.w >= 0.
 vec4 view_plane(uint plane) {
   if (plane == 0u) return vec4(0, 0, 1, -near_depth());
   const bool orthographic = view.orthographic != 0u;
@@ -43,12 +43,26 @@ void add_point(vec3 p, float error, inout WindowBounds window) {
   window.high = max(window.high, vec3(place + around, p.z + error));
 }
 
+// The planes that a point lies outside of, as bits.
+uint planes_beyond(vec3 point) {
+  const float scale = view.orthographic != 0u ? 1.0 : point.z;
+  return (point.z < near_depth() ? 1u : 0u) | (point.x < view.left_edge * scale ? 2u : 0u) | (point.x > view.right_edge * scale ? 4u : 0u) |
+         (point.y < view.bottom_edge * scale ? 8u : 0u) | (point.y > view.top_edge * scale ? 16u : 0u);
+}
+
 void add_face(LightHull hull, uvec4 corners, inout WindowBounds window) {
   vec3 face[most_corners];
   vec3 kept[most_corners];
-  for (uint i = 0u; i < 4u; ++i) face[i] = hull_corner(hull, corners[i]);
-  uint count = 4u;
+  uint crossed = 0u, missed = 31u;
+  for (uint i = 0u; i < 4u; ++i) {
+    face[i] = hull_corner(hull, corners[i]);
+    const uint beyond = planes_beyond(face[i]);
+    crossed |= beyond;
+    missed &= beyond;
+  }
+  uint count = missed != 0u ? 0u : 4u;
   for (uint p = 0u; p < 5u && count != 0u; ++p) {
+    if ((crossed >> p & 1u) == 0u) continue;
     const vec4 plane = view_plane(p);
     uint left = 0u;
     vec3 from = face[count - 1u];
@@ -117,8 +131,11 @@ void main() {
   const vec2 pixels = vec2(view.resolution) / (vec2(view.right_edge, view.bottom_edge) - edge);
   const vec2 a = (low.xy - edge) * pixels, b = (high.xy - edge) * pixels;  // rows grow downwards: pixels.y < 0
   // First and last pixel whose centre is inside.
-  const vec2 first = ceil(vec2(a.x, b.y) - (0.5 + widen_pixels)), last = floor(vec2(b.x, a.y) - (0.5 - widen_pixels));
-  bounds[place] =
-      ScreenBounds(first, last, low.z * (low.z > 0.0 ? 0.99999 : 1.00001), high.z * (high.z > 0.0 ? 1.00001 : 0.99999));
-  if (any(greaterThan(first, last))) bounds[place] = ScreenBounds(vec2(none), vec2(-none), none, -none);
+  const vec2 first = max(ceil(vec2(a.x, b.y) - (0.5 + widen_pixels)), vec2(0));
+  const vec2 last = min(floor(vec2(b.x, a.y) - (0.5 - widen_pixels)), vec2(view.resolution - 1u));
+  ScreenBounds result = ScreenBounds(0xffffu, 0xffffu, none, -none);
+  if (all(lessThanEqual(first, last)))
+    result = ScreenBounds(uint(first.x) | uint(last.x) << 16, uint(first.y) | uint(last.y) << 16,
+                          low.z * (low.z > 0.0 ? 0.99999 : 1.00001), high.z * (high.z > 0.0 ? 1.00001 : 0.99999));
+  bounds[place] = result;
 }

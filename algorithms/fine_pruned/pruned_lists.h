@@ -21,12 +21,13 @@ struct VisibleHeader {
 };
 ML_SIZE(VisibleHeader, 16);
 
-// Where a light can be seen: first and last pixel, whole numbers, and view depths. Empty: low > high.
+// Where a light can be seen: first pixel | last pixel << 16, which hold the 16384 px that a picture may have,
+// and view depths. Empty: first > last.
 struct ScreenBounds {
-  vec2 low, high;   // px
+  uint x, y;        // px
   float near, far;  // m
 };
-ML_SIZE(ScreenBounds, 24);
+ML_SIZE(ScreenBounds, 16);
 
 struct PrunedPush {
   uint columns;   // tiles across

@@ -64,13 +64,16 @@ void load_points() {
     atomicMax(depth_high, bits);
   }
   barrier();
-  tile_bounds = ScreenBounds(vec2(corner), vec2(min(corner + ML_PRUNED_TILE - 1u, last)), uintBitsToFloat(depth_low),
-                             uintBitsToFloat(depth_high));
+  const uvec2 edge = min(corner + ML_PRUNED_TILE - 1u, last);
+  tile_bounds = ScreenBounds(corner.x | edge.x << 16, corner.y | edge.y << 16, uintBitsToFloat(depth_low), uintBitsToFloat(depth_high));
 }
 
+// Closed ranges, as first | last << 16.
+bool ranges_meet(uint a, uint b) { return (a & 0xffffu) <= b >> 16 && (b & 0xffffu) <= a >> 16; }
+
 bool overlaps(ScreenBounds light) {
-  return all(greaterThanEqual(light.high, tile_bounds.low)) && all(lessThanEqual(light.low, tile_bounds.high)) &&
-         light.far >= tile_bounds.near && light.near <= tile_bounds.far;
+  return ranges_meet(light.x, tile_bounds.x) && ranges_meet(light.y, tile_bounds.y) && light.far >= tile_bounds.near &&
+         light.near <= tile_bounds.far;
 }
 
 // How many of the chunk's lights, of which there are at most 64, come before a visible index.
