@@ -22,7 +22,8 @@ const std::vector<Row>& metrics() {
       {"cpu_ms",
        "prepare() on the CPU by stage (cull, sort, bin, build, upload) and in total, [repeat][frame]"},
       {"gpu_ms",
-       "the device's time by pass (bounds, coarse, lists, shade) and in total, [repeat][frame]; on a software device this is "
+       "the device's time by pass (bounds, coarse, lists, shade) and in total, [repeat][frame]; on a "
+       "software device this is "
        "CPU time"},
       {"in_frustum", "lights left after culling against the view, per frame"},
       {"listed", "lights in the list that a pixel walks, mean over lit pixels"},
@@ -33,9 +34,14 @@ const std::vector<Row>& metrics() {
       {"mismatched_pixels", "pixels whose set of contributing lights is not the reference's"},
       {"lit_pixels", "pixels with a surface"},
       {"list_bytes", "bytes of lists and trees that the device reads"},
+      {"list_cells", "cells of the grid with lights that hold a list"},
+      {"tree_cells", "cells of the grid with lights that hold a tree"},
+      {"list_pixels", "lit pixels that walked a list"},
+      {"tree_pixels", "lit pixels that walked a tree"},
       {"overflow_tiles", "tiles whose demand was over an algorithm's caps"},
       {"overflow_lights", "lights over those caps"},
-      {"coarse_lights", "lists built on the GPU: lights in a tile's list before fine pruning, mean over tiles"},
+      {"coarse_lights",
+       "lists built on the GPU: lights in a tile's list before fine pruning, mean over tiles"},
       {"fine_lights", "the same after fine pruning"},
       {"harness.overhead_fraction", "part of the run's wall time that is in no span"},
   };
