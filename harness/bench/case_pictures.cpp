@@ -97,7 +97,8 @@ std::vector<std::string> write_heat_maps(const PixelCounts& counts, const std::v
     style.title = quantity.title;
     style.classes = quantity.classes;
     write_pair(pixels, folder, fmt::format("{}.{}", stem, quantity.name), style, files);
-    style.title = fmt::format("{}, largest of each {} px tile", quantity.title, tile);
+    style.title = fmt::format("{}, {} of each {} px tile", quantity.title,
+                              quantity.classes.empty() ? "largest" : "class", tile);
     style.block = tile;
     write_pair(quantity.classes.empty()
                    ? tile_maximum(pixels, tile)

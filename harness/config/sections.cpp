@@ -263,8 +263,8 @@ std::string scene_label(const SceneSpec& scene) {
 
 void read_resolution(const Node& node, Setup& setup) {
   node.list(2, 2);
-  setup.width = node.item(0).unsigned_integer(1, 16384);
-  setup.height = node.item(1).unsigned_integer(1, 16384);
+  setup.width = node.item(0).unsigned_integer(1, 32768);
+  setup.height = node.item(1).unsigned_integer(1, 32768);
 }
 
 }  // namespace ml

@@ -21,7 +21,7 @@
 namespace ml {
 namespace {
 
-constexpr int64_t largest_side = 16384;  // px
+constexpr int64_t largest_side = 32768;  // px
 constexpr size_t most_channels = 16;
 
 class MemoryOutput : public Imf::OStream {

@@ -29,7 +29,7 @@ void write_exr(const Picture& picture, const std::filesystem::path& file,
                const std::vector<std::pair<std::string, std::string>>& attributes = {});
 // Reads the data window as 32-bit float, whatever the file's own type. Channels come in the order R, G, B, A
 // where there are any of these, then by name: an EXR keeps no other order. Throws UsageError on a file that
-// is missing, not an EXR, damaged, or larger than 16384 pixels a side or 16 channels.
+// is missing, not an EXR, damaged, or larger than 32768 pixels a side or 16 channels.
 Picture read_exr(const std::filesystem::path& file);
 
 // How HDR became 8 bits, to be stated beside the picture: exposure from the picture's own luminance (its 99th

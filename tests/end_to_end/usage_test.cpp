@@ -74,7 +74,7 @@ TEST(Usage, ImpossibleValues) {
   expect_refused(small_config({{"lights", {{"count", -1}}}}), {"$.lights.count"});
   expect_refused(small_config({{"camera", {{"frames", 0}}}}), {"$.camera.frames"});
   expect_refused(small_config({{"resolution", {0, 27}}}), {"$.resolution[0]"});
-  expect_refused(small_config({{"resolution", {16385, 27}}}), {"$.resolution[0]", "16384"});
+  expect_refused(small_config({{"resolution", {32769, 27}}}), {"$.resolution[0]", "32768"});
   expect_refused(small_config({{"measure", {{"repeats", 0}}}}), {"$.measure.repeats"});
   expect_refused(small_config({{"camera", {{"path", "no such path"}}}}), {"no such path"});
   expect_refused(small_config({{"outputs", {{"images", {2}}}}}), {"$.outputs.images"});
@@ -108,6 +108,18 @@ TEST(Usage, UnknownDeviceAndNoVulkan) {
                {"no Vulkan device"});
   expect_error(manylights({"doctor"}, none), 3, {"no Vulkan device"});
   expect_error(manylights({"list", "devices"}, none), 3, {"no Vulkan device"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "out" / "result.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "f.exr"));
+}
+
+TEST(Usage, PictureLargerThanTheDevicesImages) {
+  Folder folder;
+  const std::string config = write_config(folder, small_config({{"resolution", {32768, 4}}}));
+  Outcome run = manylights({"run", config, "--out", (folder / "out").string(), "--quiet"});
+  if (run.code == 0) GTEST_SKIP() << "this device has images of 32768 px a side";
+  expect_error(run, 3, {"32768x4 px", "images of 1 to "});
+  expect_error(manylights({"render", config, "--frame", "0", "--out", (folder / "f.exr").string()}), 3,
+               {"32768x4 px", "images of 1 to "});
   EXPECT_FALSE(std::filesystem::exists(folder / "out" / "result.json"));
   EXPECT_FALSE(std::filesystem::exists(folder / "f.exr"));
 }

@@ -47,7 +47,7 @@ json length() {
 }
 
 json resolution() {
-  return {integer(1, 16384), integer(1, 16384)};
+  return {integer(1, 32768), integer(1, 32768)};
 }
 
 json light_value(const std::string& key) {
