@@ -28,7 +28,7 @@ class LightBvh final : public Algorithm {
   void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override {
     {
       auto span = spans.span("cull");
-      cull(frame);
+      find_visible(frame);
     }
     {
       auto span = spans.span("build");
@@ -55,7 +55,7 @@ class LightBvh final : public Algorithm {
   std::vector<uint32_t> shade_constants() const override { return {node_words_}; }
 
  private:
-  void cull(const FrameInput& frame) {
+  void find_visible(const FrameInput& frame) {
     // One froxel: only the planes of the view count.
     const FroxelGrid grid = FroxelGrid::make(
         frame.view, std::max(frame.view.resolution.x, frame.view.resolution.y), 1, frame.view.near, 0);

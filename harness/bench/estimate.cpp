@@ -12,12 +12,12 @@ namespace {
 
 // Seconds per unit on two cores of the software device, from the spans of a run of `quick` (harness.spans_ms
 // over pixels, lights and laps).
-constexpr double per_shaded_pixel = 0.064e-6;  // list walk and shading of a handful of lights
+constexpr double per_shaded_pixel = 0.064e-6;    // list walk and shading of a handful of lights
 constexpr double per_brute_force_test = 4.6e-9;  // one light for one pixel: 609 ms for 1024 at 480x270
-constexpr double per_frame_pixel = 0.46e-6;    // g-buffer, and finding the contributing lights of a pixel
-constexpr double per_light = 0.04e-6;          // script, upload, prepare
-constexpr double per_counted_pixel = 0.09e-6;  // counting lap: reading six counters back
-constexpr double start = 1.0;                  // device, calibration, scene
+constexpr double per_frame_pixel = 0.46e-6;      // g-buffer, and finding the contributing lights of a pixel
+constexpr double per_light = 0.04e-6;            // script, upload, prepare
+constexpr double per_counted_pixel = 0.09e-6;    // counting lap: reading six counters back
+constexpr double start = 1.0;                    // device, calibration, scene
 
 }  // namespace
 

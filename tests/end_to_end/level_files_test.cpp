@@ -110,7 +110,8 @@ TEST(LevelFiles, ExportedScenesPassTheKhronosValidator) {
   Folder folder;
   for (const char* name : {"canyon", "citadel", "grove"}) {
     const std::string file = (folder / (std::string(name) + ".glb")).string();
-    ASSERT_EQ(manylights({"scene", name, "--out", file, "--set", "lights=" + all_shapes(100).dump()}).code, 0);
+    ASSERT_EQ(manylights({"scene", name, "--out", file, "--set", "lights=" + all_shapes(100).dump()}).code,
+              0);
     Outcome checked = run_process({"node", ML_SOURCE_DIR "/tests/end_to_end/validate_gltf.mjs", file});
     if (checked.code == 77 || checked.code == 127)
       GTEST_SKIP() << "node or its package gltf-validator is not installed";
