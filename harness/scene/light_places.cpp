@@ -3,11 +3,23 @@
 #include "harness/scene/light_stage.h"
 
 namespace ml {
+namespace {
+
+// m, from the walls, floor and ceiling of a room: lights closer to them would leave the far half of it dark.
+constexpr double kFromWalls = 2;
+
+// Where lights of placement `room` stand; a room without the space for the distance keeps its middle half.
+Bounds within(const Bounds& room) {
+  glm::vec3 margin = glm::min(glm::vec3(kFromWalls), 0.25f * room.size());
+  return {room.min + margin, room.max - margin};
+}
+
+}  // namespace
 
 LightPlaces::LightPlaces(const LightSpec& spec, const Scene& scene)
     : seed_hash_(hash_u32(spec.seed)), height_(spec.height) {
   const Placement placement = *spec.placement;
-  const Bounds& box = placement == Placement::room ? rooms_of(scene, placement).front() : scene.bounds;
+  const Bounds box = placement == Placement::room ? within(rooms_of(scene, placement).front()) : scene.bounds;
   corner_ = glm::dvec3(box.min);
   extent_ = glm::dvec3(box.max) - corner_;
   if (placement == Placement::clumps) clumps_.emplace(scene, seed_hash_);

@@ -108,7 +108,7 @@ inline void expect_free_camera(const Scene& scene, const RayCaster& rays, uint32
   }
 }
 
-// How many lights' balls hold a visible point, over every third frame of a path of 120.
+// How many lights' balls hold a visible point, over every fourth frame of a path of 120.
 struct LightsSeen {
   double mean = 0;
   uint32_t most = 0;
@@ -119,9 +119,9 @@ inline LightsSeen lights_seen(const Scene& scene, const RayCaster& rays, const C
   LightSet set(spec, scene);
   LightsSeen seen;
   double lights = 0, points = 0;
-  for (uint32_t frame = 0; frame < kCiFrames; frame += 3) {
+  for (uint32_t frame = 0; frame < kCiFrames; frame += 4) {
     Camera camera = path.sample(frame, kCiFrames, 64, 36, scene.near, scene.far);
-    for (const glm::dvec3& point : probe(rays, camera, 10, 6).points) {
+    for (const glm::dvec3& point : probe(rays, camera, 30, 17).points) {
       uint32_t here = 0;
       for (const Light& light : set.base()) {
         glm::dvec3 step = light.position - point;

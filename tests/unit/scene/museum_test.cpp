@@ -151,19 +151,37 @@ TEST(MuseumLights, AreSpreadOverTheRoomsAndKeepTheirPlaces) {
   EXPECT_NE(stage_lights(1, 2)[0].position, many[0].position);
 }
 
-// Is a part of the light's ball, or of the ball about its segment, within the view?
+// How far (m) the light's volume reaches from its position along a unit direction.
+double reach(const Light& light, const glm::dvec3& along) {
+  if (light.shape == LightShape::box) {
+    glm::dvec3 half(light.half_extents);
+    double reached = half.x * std::abs(glm::dot(glm::dvec3(light.side), along));
+    reached += half.y * std::abs(glm::dot(glm::dvec3(glm::cross(light.direction, light.side)), along));
+    return reached + half.z * std::abs(glm::dot(glm::dvec3(light.direction), along));
+  }
+  double reached = light.radius;
+  if (has_cone(light.shape)) {
+    double cosine = glm::clamp(glm::dot(glm::dvec3(light.direction), along), -1.0, 1.0);
+    double beyond = std::max(std::acos(cosine) - double{light.outer_angle}, 0.0);
+    reached *= std::max(std::cos(beyond), 0.0);
+  }
+  if (has_segment(light.shape))
+    reached += double{light.half_length} * std::abs(glm::dot(glm::dvec3(light.side), along));
+  return reached;
+}
+
+// Is the light's volume wholly outside none of the view's six planes?
 bool in_view(const Light& light, const Camera& camera) {
   const Projection& p = camera.projection;
+  glm::dvec3 right(camera.right), up(camera.up), forward(camera.forward);
   glm::dvec3 to = light.position - glm::dvec3(camera.position);
-  glm::dvec3 v(glm::dot(to, glm::dvec3(camera.right)), glm::dot(to, glm::dvec3(camera.up)),
-               glm::dot(to, glm::dvec3(camera.forward)));
-  double radius = double{light.radius} + (has_segment(light.shape) ? double{light.half_length} : 0);
-  auto outside = [&](double slope, double across) {
-    // The plane across = slope * z, its outer side where `across` is larger.
-    return (across - slope * v.z) / std::sqrt(1 + slope * slope) > radius;
+  auto inside = [&](const glm::dvec3& inward, double offset) {
+    double length = glm::length(inward);
+    return glm::dot(inward, to) / length + reach(light, inward / length) > offset;
   };
-  return !(v.z < p.near - radius || v.z > p.far + radius || outside(p.right, v.x) || outside(-p.left, -v.x) ||
-           outside(p.top, v.y) || outside(-p.bottom, -v.y));
+  return inside(forward, p.near) && inside(-forward, -double{p.far}) &&
+         inside(double{p.right} * forward - right, 0) && inside(right - double{p.left} * forward, 0) &&
+         inside(double{p.top} * forward - up, 0) && inside(up - double{p.bottom} * forward, 0);
 }
 
 TEST(MuseumLights, AboutHalfOfThemAreInView) {
