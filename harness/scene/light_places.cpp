@@ -6,7 +6,7 @@ namespace ml {
 namespace {
 
 // m, from the walls, floor and ceiling of a room: lights closer to them would leave the far half of it dark.
-constexpr double kFromWalls = 2;
+constexpr double kFromWalls = 2.5;
 
 // Where lights of placement `room` stand; a room without the space for the distance keeps its middle half.
 Bounds within(const Bounds& room) {
