@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "harness/scene/light_clumps.h"
+
 namespace ml {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
-constexpr double kReferenceCount = 65536;
+constexpr uint32_t kReferenceCount = 65536;
 constexpr double kWantedOverdraw = 3;
 // Between the measured 1.0 (open ground) and 1.9 (narrow streets) of the surface formula.
 constexpr double kSurfaceGain = 1.4;
@@ -28,8 +30,9 @@ RadiusMoments radius_moments(double ratio) {
 
 double size_for_count(double s0, uint32_t count, Sizing sizing, Placement placement) {
   if (sizing == Sizing::fixed_size || count == 0) return s0;
-  double share = kReferenceCount / count;
-  return s0 * (placement == Placement::volume ? std::cbrt(share) : std::sqrt(share));
+  double share = double{kReferenceCount} / count;
+  const bool fills_space = placement == Placement::volume || placement == Placement::room;
+  return s0 * (fills_space ? std::cbrt(share) : std::sqrt(share));
 }
 
 double surface_area(const Scene& scene) {
@@ -44,6 +47,7 @@ double surface_area(const Scene& scene) {
 }
 
 double default_base_size(const Scene& scene, Placement placement, double ratio) {
+  if (placement == Placement::clumps) return clump_smallest_radius(kReferenceCount, scene);
   const LightDefaults& defaults = scene.light_defaults;
   double own = placement == Placement::volume     ? defaults.volume_size
                : placement == Placement::triangle ? defaults.triangle_size

@@ -28,7 +28,8 @@ enum class LightDimension : uint32_t {
   orbit,
   turn,
   aspect_0,
-  aspect_1
+  aspect_1,
+  clump
 };
 class LightNumbers {
  public:

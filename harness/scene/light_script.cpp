@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "harness/scene/light_clumps.h"
 #include "harness/scene/light_placement.h"
 #include "harness/scene/turn.h"
 
@@ -42,6 +44,35 @@ bool spawn(const LightNumbers& number, double seconds, Light& light) {
   return thinnest >= kMinLightRadius;
 }
 
+// The lights of a clump circle together, whatever the placement: 2 to 6 m about their places, 0.02 to 0.06
+// turns a second, either way round. The others drift.
+bool circle(uint32_t seed_hash, const LightNumbers& number, double seconds, Light& light) {
+  std::optional<uint32_t> clump = clump_of(number);
+  if (!clump) return drift(number, seconds, light);
+  constexpr uint32_t kStream = 45;
+  Random random(hash_u32(seed_hash, kStream, *clump));
+  double radius = random.uniform(2, 6), rate = random.uniform(0.02f, 0.06f);
+  double turns = static_cast<double>(random.uniform()) + (random.below(2) == 0 ? rate : -rate) * seconds;
+  light.position.x += radius * cosine_of_turns(turns);
+  light.position.z += radius * sine_of_turns(turns);
+  return std::abs(light.position.x) <= kMaxLightPosition && std::abs(light.position.z) <= kMaxLightPosition;
+}
+
+bool shines(LightScript script, uint32_t seed_hash, uint32_t light_number, double seconds, Light& light) {
+  LightNumbers number(seed_hash, light_number);
+  switch (script) {
+    case LightScript::none:
+      return true;
+    case LightScript::drift:
+      return drift(number, seconds, light);
+    case LightScript::spawn:
+      return spawn(number, seconds, light);
+    case LightScript::orbit:
+      return circle(seed_hash, number, seconds, light) && spawn(number, seconds, light);
+  }
+  return true;
+}
+
 }  // namespace
 
 double script_time(uint32_t frame, uint32_t frames, double duration) {
@@ -62,10 +93,7 @@ void run_script(LightScript script, uint32_t seed, double seconds, std::span<con
   for (uint32_t i = 0; i < base.size(); ++i) {
     Light& light = out[shining];
     light = base[i];
-    LightNumbers number(seed_hash, i);
-    bool shines =
-        script == LightScript::drift ? drift(number, seconds, light) : spawn(number, seconds, light);
-    if (shines) ++shining;
+    if (shines(script, seed_hash, i, seconds, light)) ++shining;
   }
   out.resize(shining);
 }

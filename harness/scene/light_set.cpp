@@ -8,22 +8,36 @@
 
 #include "harness/base/error.h"
 #include "harness/base/random.h"
+#include "harness/scene/light_clumps.h"
 #include "harness/scene/light_law.h"
 #include "harness/scene/light_placement.h"
+#include "harness/scene/light_places.h"
 #include "harness/scene/light_script.h"
 #include "harness/scene/light_shape_law.h"
+#include "harness/scene/light_stage.h"
 
 namespace ml {
 namespace {
 
 constexpr uint32_t kMaxLights = 1048576;
+constexpr float kRoomRadius = 8;  // m, of placement `room`
+
+// Placements that bring their own law of radii.
+bool has_own_radii(std::optional<Placement> placement) {
+  return placement == Placement::clumps || placement == Placement::stage || placement == Placement::room;
+}
 
 // The closed-form scene has its own lights: equal, at one height, uniform over its area whatever the
 // placement.
 LightSpec adapted(LightSpec spec, const Scene& scene) {
   spec = completed(spec, scene.light_defaults);
-  if (scene.name != "plane" || spec.placement == Placement::gltf) return spec;
-  spec.placement = Placement::area;
+  const bool closed_form = scene.name == "plane" && spec.placement != Placement::gltf;
+  if (closed_form) spec.placement = Placement::area;
+  if (spec.placement == Placement::room && spec.radius == 0 && spec.base_size == 0) spec.radius = kRoomRadius;
+  if (spec.radius_ratio == 0)
+    spec.radius_ratio =
+        spec.placement == Placement::clumps ? clump_radius_ratio(spec.count) : LightDefaults().radius_ratio;
+  if (!closed_form) return spec;
   if (spec.radius == 0 && spec.base_size == 0) spec.radius = 4;
   if (spec.height == 0) spec.height = 2;
   return spec;
@@ -52,10 +66,30 @@ void override_radius(float radius, Light& light) {
   if (diagonal > 0 && std::isfinite(diagonal)) make_box(light, glm::vec3(half * (double{radius} / diagonal)));
 }
 
+void check_stage(const LightSpec& spec) {
+  if (spec.spot_fraction + spec.capsule_fraction + spec.wedge_fraction + spec.box_fraction == 0) return;
+  throw UsageError(
+      "lights: placement 'stage' has shapes of its own, expected no spot_fraction, capsule_fraction, "
+      "wedge_fraction or box_fraction");
+}
+
+// m, the s of the run's law of radii.
+double smallest_radius(const LightSpec& spec, const Scene& scene) {
+  if (spec.radius > 0) return spec.radius;
+  const Placement placement = *spec.placement;
+  if (placement == Placement::clumps && spec.base_size == 0 && spec.sizing == Sizing::const_overdraw)
+    return clump_smallest_radius(spec.count, scene);
+  double s0 = spec.base_size > 0
+                  ? spec.base_size
+                  : default_base_size(scene, placement, static_cast<double>(spec.radius_ratio));
+  return size_for_count(s0, spec.count, spec.sizing, placement);
+}
+
 }  // namespace
 
 const std::vector<std::string>& placement_names() {
-  static const std::vector<std::string> names{"volume", "triangle", "area", "gltf"};
+  static const std::vector<std::string> names{"volume", "triangle", "area", "gltf",
+                                              "clumps", "stage",    "room"};
   return names;
 }
 
@@ -65,13 +99,13 @@ const std::vector<std::string>& sizing_names() {
 }
 
 const std::vector<std::string>& light_script_names() {
-  static const std::vector<std::string> names{"static", "drift", "spawn"};
+  static const std::vector<std::string> names{"static", "drift", "spawn", "orbit"};
   return names;
 }
 
 LightSpec completed(LightSpec spec, const LightDefaults& defaults) {
   if (!spec.placement) spec.placement = defaults.placement;
-  if (spec.radius_ratio == 0) spec.radius_ratio = defaults.radius_ratio;
+  if (spec.radius_ratio == 0 && !has_own_radii(spec.placement)) spec.radius_ratio = defaults.radius_ratio;
   return spec;
 }
 
@@ -114,34 +148,33 @@ LightSet::LightSet(const LightSpec& spec, const Scene& scene) : spec_(adapted(sp
     return;
   }
 
-  double s0 = spec_.base_size > 0
-                  ? spec_.base_size
-                  : default_base_size(scene, *spec_.placement, static_cast<double>(spec_.radius_ratio));
-  size_ = spec_.radius > 0
-              ? spec_.radius
-              : static_cast<float>(size_for_count(s0, spec_.count, spec_.sizing, *spec_.placement));
-  if (spec_.count == 0) return;
-  std::optional<SurfaceSampler> surface;
-  if (spec_.placement != Placement::volume) surface.emplace(scene, spec_.placement == Placement::area);
-
-  glm::dvec3 corner(scene.bounds.min), extent(glm::dvec3(scene.bounds.max) - corner);
+  const uint32_t seed_hash = hash_u32(spec_.seed);
   lights_.reserve(spec_.count);
+  if (spec_.placement == Placement::stage) {
+    check_stage(spec_);
+    const std::vector<Bounds>& rooms = rooms_of(scene, Placement::stage);
+    size_ = spec_.radius > 0 ? spec_.radius : kShortestStageRange;
+    for (uint32_t i = 0; i < spec_.count; ++i) {
+      Light light = stage_light(rooms, seed_hash, i);
+      if (spec_.radius > 0) override_radius(spec_.radius, light);
+      glm::vec3 colour = colour_of_hue(LightNumbers(seed_hash, i)(LightDimension::hue));
+      light.intensity *= colour * static_cast<float>(intensity_for_radius(light.radius)) * spec_.intensity;
+      accept(light);
+    }
+    return;
+  }
+
+  size_ = static_cast<float>(smallest_radius(spec_, scene));
+  if (spec_.placement == Placement::room) rooms_of(scene, Placement::room);
+  if (spec_.count == 0) return;
+  const LightPlaces places(spec_, scene);
   for (uint32_t i = 0; i < spec_.count; ++i) {
-    LightNumbers number(hash_u32(spec_.seed), i);
+    LightNumbers number(seed_hash, i);
     Light light;
     light.radius = spec_.radius > 0
                        ? spec_.radius
                        : pareto_radius(number(LightDimension::radius), size_, spec_.radius_ratio);
-    glm::dvec3 choice(number(LightDimension::place_0), number(LightDimension::place_1),
-                      number(LightDimension::place_2));
-    if (surface) {
-      SurfaceSampler::Point point = surface->at(choice.x, choice.y, choice.z);
-      double lift = spec_.height > 0 ? spec_.height
-                                     : 0.5 * static_cast<double>(light.radius) * number(LightDimension::lift);
-      light.position = point.position + lift * point.normal;
-    } else {
-      light.position = corner + extent * choice;
-    }
+    light.position = places.at(i, light.radius);
     const float ball_radius = light.radius;
     give_shape(shape_of(number, spec_), number, light);
     const float lit_radius = light.shape == LightShape::box ? ball_radius : light.radius;

@@ -16,7 +16,7 @@ namespace ml {
 // s(N) shrinks so that overdraw stays | the same s at every N.
 enum class Sizing { const_overdraw, fixed_size };
 // The configuration's name of `none` is "static".
-enum class LightScript { none, drift, spawn };
+enum class LightScript { none, drift, spawn, orbit };
 
 // Names as in a configuration, in the order of the enumerators.
 const std::vector<std::string>& placement_names();
@@ -30,8 +30,10 @@ struct LightSpec {
   // m, s0 of the radius law at 65,536 lights. 0: the scene's own (scenes.md), or for a glTF level the size
   // that gives about 3 lights per visible point by the overdraw formula of the placement.
   float base_size = 0;
-  float radius_ratio = 0;  // largest radius / smallest, [1, 1000]; 0: the scene's own
-  float radius = 0;        // m, > 0: every light has this radius, and the law is not used
+  // Largest radius / smallest, [1, 1000]; 0: the scene's own, and for `clumps`, `stage` and `room` the
+  // placement's own.
+  float radius_ratio = 0;
+  float radius = 0;  // m, > 0: every light has this radius, and the law is not used
   // m, placements `triangle` and `area`: > 0 puts every light exactly this far along the surface normal.
   float height = 0;
   // [0, 1] each, [0, 1] together: this part of the lights (by hash) have the shape; the rest are omni.
@@ -66,7 +68,8 @@ std::string shape_shares_error(const LightSpec& spec);
 class LightSet {
  public:
   // Throws UsageError when the scene cannot carry the placement (`gltf` without lights, surfaces without
-  // triangles), the count is too large, or the shares of the shapes are. `gltf` takes the first `count` of
+  // triangles, `stage` and `room` without rooms), the count is too large, the shares of the shapes are, or
+  // `stage`, which has shapes of its own, is given any. `gltf` takes the first `count` of
   // the file's lights. On the scene `plane` every placement but `gltf` is `area`, of radius 4 and height 2
   // where the spec names none.
   LightSet(const LightSpec& spec, const Scene& scene);
@@ -74,7 +77,8 @@ class LightSet {
   // The lights that shine in frame `frame` of a path of `frames` frames that lasts `duration` seconds, in
   // ascending order of their stable identity. drift: each light orbits its place within its own radius.
   // spawn: each light has a seeded life and pause, and fades in and out by its size (scale_size); about 70 %
-  // shine at once. A camera that stands still (duration 0) runs at 60 frames a second, so that its lights
+  // shine at once. orbit: the lights of a clump circle together, those of no clump drift, and all come and go
+  // as with spawn. A camera that stands still (duration 0) runs at 60 frames a second, so that its lights
   // still move. Never returns a light that rejection_reason() refuses. Reuses `out`; allocates nothing once
   // `out` has its capacity.
   void at(uint32_t frame, uint32_t frames, double duration, std::vector<Light>& out) const;

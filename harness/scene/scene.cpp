@@ -32,6 +32,11 @@ std::vector<SceneInfo> procedural_scenes() {
       {"grove",
        "A path between picket fences in a wood: 300 x 300 m, thin things before far ones in every tile.",
        kGroveLights},
+      {"museum", "5 x 3 rooms of 14 m, closed all around; 80, 160 or 240 spots, capsules, wedges and boxes.",
+       kMuseumLights},
+      {"arena",
+       "90 x 90 m with 450 objects; 50, 500, 2700 or 3240 lights in clumps, or 50 in one room of 12 x 12 m.",
+       kArenaLights},
       {"plane", "Two triangles, 100 x 100 m: the number of lights per pixel has a closed form.",
        kPlaneLights}};
 }
@@ -63,6 +68,10 @@ Scene load_scene(const SceneSpec& spec) {
     scene = make_citadel(spec.seed);
   } else if (spec.procedural == "grove") {
     scene = make_grove(spec.seed);
+  } else if (spec.procedural == "museum") {
+    scene = make_museum(spec.seed);
+  } else if (spec.procedural == "arena") {
+    scene = make_arena(spec.seed);
   } else if (spec.procedural == "plane") {
     scene = make_plane();
   } else {

@@ -72,6 +72,7 @@ struct Scene {
   LightDefaults light_defaults;
   std::vector<Light> lights;      // the file's own (KHR_lights_punctual), for placement `gltf`
   std::vector<CameraPath> paths;  // the first is `default`
+  std::vector<Bounds> rooms;      // from floor to ceiling, for the placements `stage` and `room`
   Bounds bounds;                  // of the vertices
   float near = 0.1f;              // m
   float far = 1000;               // m, the depth range of grids: about the longest view

@@ -98,7 +98,8 @@ TEST(ShippedConfigs, AllLoad) {
     EXPECT_EQ(config.name, fs::path(info.name).filename().string());
   }
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
-  for (const char* name : {"quick", "plane", "canyon_65536", "citadel", "grove", "regression/smoke"}) {
+  for (const char* name : {"quick", "plane", "canyon_65536", "citadel", "grove", "museum", "arena", "room50",
+                           "regression/smoke"}) {
     EXPECT_TRUE(std::binary_search(names.begin(), names.end(), name)) << name;
   }
 }

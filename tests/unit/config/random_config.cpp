@@ -51,14 +51,14 @@ json resolution() {
 }
 
 json light_value(const std::string& key) {
-  if (key == "placement") return one_of({"volume", "triangle", "area", "gltf"});
+  if (key == "placement") return one_of({"volume", "triangle", "area", "gltf", "clumps", "stage", "room"});
   if (key == "count") return integer(0, 65536);
   if (key == "sizing") return one_of({"const_overdraw", "fixed_size"});
   if (key == "radius_ratio") return real(1, 1000);
   if (key.ends_with("_fraction")) return real(0, 0.25);  // at most 1 together
   if (key == "intensity") return one_of({1e-9, 1e9, 0.3, real(1e-3, 1e3)});
   if (key == "seed") return seed();
-  if (key == "animate") return one_of({"static", "drift", "spawn"});
+  if (key == "animate") return one_of({"static", "drift", "spawn", "orbit"});
   return length();  // base_size, radius, height
 }
 
@@ -77,9 +77,9 @@ json keyframes() {
 }
 
 json scene() {
-  if (now()) return one_of({"canyon", "citadel", "grove", "plane"});
+  if (now()) return one_of({"canyon", "citadel", "grove", "museum", "arena", "plane"});
   json object =
-      now() ? json{{"name", one_of({"canyon", "citadel", "grove", "plane"})}}
+      now() ? json{{"name", one_of({"canyon", "citadel", "grove", "museum", "arena", "plane"})}}
             : json{{"gltf", one_of({"level.glb", "../a b/Ünï.gltf", "/abs/./x.glb", "no-extension"})}};
   if (object.contains("gltf") && now()) object["scene"] = integer(-1, 5);
   if (now()) object["seed"] = seed();

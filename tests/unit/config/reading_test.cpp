@@ -265,6 +265,11 @@ TEST(ConfigReading, TheSceneBringsThePlacementThatIsNotNamed) {
   EXPECT_EQ(grove.resolved["lights"]["radius_ratio"], 24);
   EXPECT_EQ(grove.setups[0].lights.placement, Placement::area);
   EXPECT_EQ(grove.setups[0].lights.radius_ratio, 24);
+  EXPECT_EQ(placement(parse(R"({"scene": "museum"})")), "stage");
+  // The clumps' ratio of radii depends on their number.
+  Config arena = parse(R"({"scene": "arena"})");
+  EXPECT_EQ(placement(arena), "clumps");
+  EXPECT_FALSE(arena.resolved["lights"].contains("radius_ratio"));
   Config named = parse(R"({"scene": "grove", "lights": {"placement": "volume", "radius_ratio": 2}})");
   EXPECT_EQ(placement(named), "volume");
   EXPECT_EQ(named.setups[0].lights.placement, Placement::volume);

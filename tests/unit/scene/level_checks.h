@@ -83,13 +83,14 @@ inline std::vector<bool> double_sided(const Scene& scene) {
   return result;
 }
 
-// Along the default path: no view of a wall's inner side, nothing within half a metre, a way that is free
-// from each frame to the next, and something below.
-inline void expect_free_camera(const Scene& scene, const RayCaster& rays, uint32_t frames, double median) {
+// Along a path, the default one where none is named: no view of a wall's inner side, nothing within half a
+// metre, a way that is free from each frame to the next, and something below.
+inline void expect_free_camera(const Scene& scene, const RayCaster& rays, uint32_t frames, double median,
+                               size_t path = 0) {
   std::vector<bool> both_sides = double_sided(scene);
   glm::dvec3 last(0);
   for (uint32_t frame = 0; frame < frames; ++frame) {
-    Camera camera = scene.paths[0].sample(frame, frames, 64, 36, scene.near, scene.far);
+    Camera camera = scene.paths[path].sample(frame, frames, 64, 36, scene.near, scene.far);
     DepthProbe seen = probe(rays, camera, 32, 18);
     for (uint32_t triangle : seen.seen_from_behind) {
       EXPECT_TRUE(both_sides[triangle]) << "triangle " << triangle << " from behind, frame " << frame;
@@ -107,26 +108,40 @@ inline void expect_free_camera(const Scene& scene, const RayCaster& rays, uint32
   }
 }
 
-// The mean number of lights that reach a visible point, over every third frame of the path of 120.
-inline double lights_per_point(const Scene& scene, const RayCaster& rays, uint32_t count) {
+// How many lights' balls hold a visible point, over every fourth frame of a path of 120.
+struct LightsSeen {
+  double mean = 0;
+  uint32_t most = 0;
+};
+inline LightsSeen lights_seen(const Scene& scene, const RayCaster& rays, const CameraPath& path,
+                              const LightSpec& spec) {
   constexpr uint32_t kCiFrames = 120;
-  LightSpec spec;
-  spec.count = count;
   LightSet set(spec, scene);
+  LightsSeen seen;
   double lights = 0, points = 0;
-  for (uint32_t frame = 0; frame < kCiFrames; frame += 3) {
-    Camera camera = scene.paths[0].sample(frame, kCiFrames, 64, 36, scene.near, scene.far);
-    DepthProbe seen = probe(rays, camera, 10, 6);
-    for (const glm::dvec3& point : seen.points) {
-      ++points;
+  for (uint32_t frame = 0; frame < kCiFrames; frame += 4) {
+    Camera camera = path.sample(frame, kCiFrames, 64, 36, scene.near, scene.far);
+    for (const glm::dvec3& point : probe(rays, camera, 30, 17).points) {
+      uint32_t here = 0;
       for (const Light& light : set.base()) {
         glm::dvec3 step = light.position - point;
         double radius = light.radius;
-        if (glm::dot(step, step) < radius * radius) ++lights;
+        if (glm::dot(step, step) < radius * radius) ++here;
       }
+      ++points;
+      lights += here;
+      seen.most = std::max(seen.most, here);
     }
   }
-  return lights / points;
+  seen.mean = lights / points;
+  return seen;
+}
+
+// Their mean number along the default path, placed as the scene's own.
+inline double lights_per_point(const Scene& scene, const RayCaster& rays, uint32_t count) {
+  LightSpec spec;
+  spec.count = count;
+  return lights_seen(scene, rays, scene.paths[0], spec).mean;
 }
 
 }  // namespace ml

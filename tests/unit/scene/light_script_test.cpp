@@ -8,7 +8,7 @@ namespace ml {
 namespace {
 
 TEST(LightScripts, AreFunctionsOfTheFrameAlone) {
-  for (LightScript script : {LightScript::none, LightScript::drift, LightScript::spawn}) {
+  for (LightScript script : {LightScript::none, LightScript::drift, LightScript::spawn, LightScript::orbit}) {
     LightSpec spec = spec_of(3000);
     spec.script = script;
     LightSet set(spec, level());
@@ -71,7 +71,7 @@ TEST(LightScripts, SpawnShowsAboutSeventyPercentAndFadesByTheRadius) {
 }
 
 TEST(LightScripts, ASteadyFrameAllocatesNothing) {
-  for (LightScript script : {LightScript::none, LightScript::drift, LightScript::spawn}) {
+  for (LightScript script : {LightScript::none, LightScript::drift, LightScript::spawn, LightScript::orbit}) {
     LightSpec spec = spec_of(5000);
     spec.script = script;
     LightSet set(spec, level());

@@ -225,9 +225,10 @@ TEST(LightSet, GltfPlacementTakesTheFilesLightsInOrder) {
 }
 
 TEST(LightNames, AreAsManyAsTheEnumerators) {
-  EXPECT_EQ(placement_names(), (std::vector<std::string>{"volume", "triangle", "area", "gltf"}));
+  EXPECT_EQ(placement_names(),
+            (std::vector<std::string>{"volume", "triangle", "area", "gltf", "clumps", "stage", "room"}));
   EXPECT_EQ(sizing_names(), (std::vector<std::string>{"const_overdraw", "fixed_size"}));
-  EXPECT_EQ(light_script_names(), (std::vector<std::string>{"static", "drift", "spawn"}));
+  EXPECT_EQ(light_script_names(), (std::vector<std::string>{"static", "drift", "spawn", "orbit"}));
 }
 
 }  // namespace
