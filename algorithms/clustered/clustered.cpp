@@ -15,7 +15,7 @@ enum Slot : uint32_t { grid_slot, offsets_slot, indices_slot, duplicates_slot };
 // As the light cursor reads it.
 struct GridHeader {
   gpu_data::SliceMapping mapping;
-  uint32_t tile, columns, slices;
+  uint32_t tile, columns, tiles;
 };
 
 template <typename Element>
@@ -34,7 +34,8 @@ class Clustered final : public Algorithm {
     size_t entry_bytes = duplicated_ ? sizeof(gpu_data::LightCore) : sizeof(uint32_t);
     lists_.build(frame, settings_, memory.limit() / entry_bytes, spans);
     auto span = spans.span("upload");
-    const GridHeader header{lists_.grid().mapping, settings_.tile, lists_.grid().columns, settings_.slices};
+    const GridHeader header{lists_.grid().mapping, settings_.tile, lists_.grid().columns,
+                            lists_.grid().tiles()};
     copy(std::span(&header, 1), memory.map(grid_slot, sizeof header));
     copy(lists_.offsets(), memory.map(offsets_slot, lists_.offsets().size_bytes()));
     std::span<const uint32_t> indices = lists_.entries();

@@ -4,7 +4,7 @@
 layout(constant_id = 16) const bool DUPLICATED = false;
 layout(scalar, binding = 16) readonly buffer Grid {
   SliceMapping slice_mapping;
-  uint tile_size, tile_columns, slice_count;
+  uint tile_size, tile_columns, tile_count;
 };
 layout(scalar, binding = 17) readonly buffer Offsets { uint froxel_offsets[]; };
 layout(scalar, binding = 18) readonly buffer Indices { uint froxel_indices[]; };
@@ -16,7 +16,7 @@ struct LightCursor {
 
 uint light_cell(SurfacePoint point) {
   uvec2 tile = point.pixel / tile_size;
-  return (tile.y * tile_columns + tile.x) * slice_count + slice_of_depth(point.depth, slice_mapping);
+  return slice_of_depth(point.depth, slice_mapping) * tile_count + tile.y * tile_columns + tile.x;
 }
 
 LightCursor cell_begin(uint froxel, float depth, bool counted) {

@@ -29,8 +29,8 @@ size_t type_of(uint32_t id_shape) {
 void VisibleLightList::cull(const FrameInput& frame, Spans& spans) {
   auto span = spans.span("cull");
   const BoundsConstants constants(frame.view, tile_grid(frame.view));
-  visible_.count = 0;
-  if (frame.lights.count() > 0) simd::cull(frame.lights, 0, frame.lights.count(), constants, visible_);
+  visible_.reserve(frame.lights.count());
+  visible_.count = simd::cull(frame.lights, 0, frame.lights.count(), constants, visible_);
 }
 
 void VisibleLightList::sort(const FrameInput& frame, uint32_t most, Spans& spans) {
@@ -51,8 +51,9 @@ void VisibleLightList::sort(const FrameInput& frame, uint32_t most, Spans& spans
 
 uint64_t VisibleLightList::most_entries(const FrameInput& frame) {
   if (visible_.count == 0) return 0;
-  simd::bound(VisibleRun(visible_), BoundsConstants(frame.view, tile_grid(frame.view)), boxes_);
-  return count_pairs(boxes_, visible_.count);
+  reserve_padded(boxes_, visible_.count);
+  simd::bound(VisibleRun(visible_), BoundsConstants(frame.view, tile_grid(frame.view)), boxes_.data());
+  return count_pairs(boxes_.data(), nullptr, visible_.count);
 }
 
 }  // namespace ml

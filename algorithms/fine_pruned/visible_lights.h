@@ -28,7 +28,7 @@ class VisibleLightList {
 
  private:
   VisibleLights visible_;
-  LightBoxes boxes_;
+  std::vector<LightBox> boxes_;
   std::vector<uint32_t> sorted_;
   gpu_data::VisibleHeader header_{};
 };

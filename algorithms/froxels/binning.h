@@ -15,11 +15,10 @@ namespace ml {
 // Lights in front of the camera and not outside a side plane of the view, in view space, in ascending order
 // of index.
 struct VisibleLights {
-  // View-space centre (m), widened radius (m), light index; the first `count` elements are in use, vector
-  // padding behind them.
+  // View-space centre (m), widened radius (m), light index; vector padding behind the last element.
   std::vector<float> x, y, z, radius;
   std::vector<uint32_t> index;
-  size_t count = 0;
+  size_t count = 0;  // elements in use, where they are one run from the first on
   void reserve(size_t lights);
 };
 
@@ -38,21 +37,38 @@ struct VisibleRun {
         count(end - begin) {}
 };
 
-// The froxel box of each visible light: number of its first froxel and extents, 0 extents for an empty box.
-struct LightBoxes {
-  std::vector<uint32_t> first, columns, rows, slices;
-  void reserve(size_t lights);
+// The froxel box of a visible light: all that is needed to write it into lists, in a quarter of a cache line.
+struct LightBox {
+  uint32_t first;          // number of its first froxel
+  uint32_t light;          // index
+  uint16_t columns, rows;  // extents in froxels; all 0 for an empty box
+  uint32_t slices;
+  uint64_t froxels() const { return uint64_t{columns} * rows * slices; }
+};
+static_assert(sizeof(LightBox) == 16);
+
+// View depths (m) between which a light reaches surface points, widened by what rounding may take.
+struct DepthInterval {
+  float low, high;
+};
+// The same with the low end negated, so that vector code treats both ends alike.
+struct DepthReach {
+  float minus_low, high;
 };
 
-// View depths (m) between which each visible light reaches surface points, widened by what rounding may take.
-struct DepthRanges {
-  std::vector<float> low, high;
-  void reserve(size_t lights);
-};
+// Elements behind the last one that vector code may touch, and the multiple at which runs begin that are
+// written side by side.
+inline constexpr size_t vector_padding = 64;
+
+// Room for `count` elements and the padding; grows rarely and never shrinks.
+template <typename Element>
+void reserve_padded(std::vector<Element>& elements, size_t count) {
+  if (elements.size() < count + vector_padding) elements.resize(count + count / 4 + vector_padding);
+}
 
 // (froxel, light) pairs in the order of lights.
 struct FroxelPairs {
-  std::vector<uint32_t> froxel, light;
+  std::vector<uint32_t> cell, light;
   size_t count = 0;
 };
 
@@ -67,7 +83,7 @@ class BoxOffsets {
   }
 
  private:
-  uint32_t built_columns_ = 0, built_slices_ = 0;
+  uint32_t built_columns_ = 0, built_rows_ = 0;
   std::vector<uint32_t> table_;
 };
 
@@ -75,32 +91,33 @@ namespace scalar {
 // The exact 2D bounds of the clipped, projected ball (Mara & McGuire 2013) and its depth extent, as froxels;
 // empty when no pixel centre of the picture can be inside. Ball in view space, already widened.
 FroxelBox bound_ball(const BoundsConstants& constants, float x, float y, float z, float radius);
-void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
-          VisibleLights& visible);
-void bound(const VisibleRun& visible, const BoundsConstants& constants, LightBoxes& boxes);
-// The depth range of a ball, as written by depth_ranges().
-struct DepthInterval {
-  float low, high;
-};
+// See below; without reaches.
+size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
+            VisibleLights& visible);
+void bound(const VisibleRun& visible, const BoundsConstants& constants, LightBox* boxes);
+// The depths of a ball, as cull() writes them.
 DepthInterval depth_interval(float z, float radius);
 }  // namespace scalar
 
 namespace simd {
-void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
-          VisibleLights& visible);
-void bound(const VisibleRun& visible, const BoundsConstants& constants, LightBoxes& boxes);
-// low[i], high[i]: depth range of light i of the run; writes whole vectors.
-void depth_ranges(const VisibleRun& visible, float* low, float* high);
-void emit(const VisibleRun& visible, const LightBoxes& boxes, const FroxelGrid& grid,
+// Writes the visible ones of lights [begin, end) to `visible`, from its element `begin` on, and returns how
+// many they are. With `reaches`, reaches[i] becomes light i's depths, visible or not. Both have room for all
+// lights and the padding; whole vectors are written. Parts that begin at multiples of the padding can be
+// culled side by side.
+size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
+            VisibleLights& visible, DepthReach* reaches = nullptr);
+// boxes[i]: of light i of the run; whole vectors are written.
+void bound(const VisibleRun& visible, const BoundsConstants& constants, LightBox* boxes);
+// Writes the pairs of the boxes boxes[places[0..count)], or boxes[0..count) without places, one after the
+// other.
+void emit(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
           const BoxOffsets& offsets, FroxelPairs& pairs);
-// to[i] = table[places[i]].
-void gather(std::span<const uint32_t> table, std::span<const uint32_t> places, uint32_t* to);
 // The instruction set that is used on this machine, as Highway names it.
 const char* target_name();
 }  // namespace simd
 
-// Sum of the boxes' froxels: the pairs that emit() will write.
-uint64_t count_pairs(const LightBoxes& boxes, size_t lights);
+// Sum of the boxes' froxels, the pairs that emit() will write; places as there.
+uint64_t count_pairs(const LightBox* boxes, const uint32_t* places, size_t count);
 // Makes room for `count` pairs and the vector code's padding.
 void reserve_pairs(FroxelPairs& pairs, size_t count);
 

@@ -7,9 +7,6 @@
 namespace ml {
 namespace {
 
-// Elements behind the last one that vector code may touch.
-constexpr size_t padding = 64;
-
 struct Interval {
   float low, high;
 };
@@ -35,45 +32,33 @@ Interval perspective_interval(float a, float z, float radius, float near) {
 }  // namespace
 
 void VisibleLights::reserve(size_t lights) {
-  for (std::vector<float>* column : {&x, &y, &z, &radius})
-    if (column->size() < lights + padding) column->resize(lights + padding);
-  if (index.size() < lights + padding) index.resize(lights + padding);
-}
-
-void LightBoxes::reserve(size_t lights) {
-  for (std::vector<uint32_t>* column : {&first, &columns, &rows, &slices})
-    if (column->size() < lights + padding) column->resize(lights + padding);
-}
-
-void DepthRanges::reserve(size_t lights) {
-  for (std::vector<float>* column : {&low, &high})
-    if (column->size() < lights + padding) column->resize(lights + padding);
+  for (std::vector<float>* column : {&x, &y, &z, &radius}) reserve_padded(*column, lights);
+  reserve_padded(index, lights);
 }
 
 void reserve_pairs(FroxelPairs& pairs, size_t count) {
-  for (std::vector<uint32_t>* column : {&pairs.froxel, &pairs.light})
-    if (column->size() < count + padding) column->resize(count + count / 4 + padding);
+  reserve_padded(pairs.cell, count);
+  reserve_padded(pairs.light, count);
 }
 
-uint64_t count_pairs(const LightBoxes& boxes, size_t lights) {
+uint64_t count_pairs(const LightBox* boxes, const uint32_t* places, size_t count) {
   uint64_t sum = 0;
-  for (size_t i = 0; i < lights; ++i) sum += uint64_t{boxes.columns[i]} * boxes.rows[i] * boxes.slices[i];
+  for (size_t i = 0; i < count; ++i) sum += boxes[places ? places[i] : i].froxels();
   return sum;
 }
 
 void BoxOffsets::build(const FroxelGrid& grid) {
-  if (built_columns_ == grid.columns && built_slices_ == grid.slices) return;
+  if (built_columns_ == grid.columns && built_rows_ == grid.rows) return;
   built_columns_ = grid.columns;
-  built_slices_ = grid.slices;
+  built_rows_ = grid.rows;
   table_.assign(size_t{max_extent} * max_extent * max_extent * stride, 0);
   for (uint32_t columns = 1; columns <= max_extent; ++columns)
     for (uint32_t rows = 1; rows <= max_extent; ++rows)
       for (uint32_t slices = 1; slices <= max_extent; ++slices) {
         auto* next = const_cast<uint32_t*>(get(columns, rows, slices));
-        for (uint32_t row = 0; row < rows; ++row)
-          for (uint32_t column = 0; column < columns; ++column)
-            for (uint32_t slice = 0; slice < slices; ++slice)
-              *next++ = (row * grid.columns + column) * grid.slices + slice;
+        for (uint32_t slice = 0; slice < slices; ++slice)
+          for (uint32_t row = 0; row < rows; ++row)
+            for (uint32_t column = 0; column < columns; ++column) *next++ = grid.cell(column, row, slice);
       }
 }
 
@@ -113,10 +98,9 @@ FroxelBox bound_ball(const BoundsConstants& c, float x, float y, float z, float 
           slice(depth_interval(z, radius).high)};
 }
 
-void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& c,
-          VisibleLights& visible) {
-  visible.reserve(end - begin);
-  visible.count = 0;
+size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& c,
+            VisibleLights& visible) {
+  size_t n = begin;
   const gpu_data::ViewData& v = c.view;
   bool orthographic = v.orthographic != 0;
   // A side plane at window coordinate e: inside where p - e * z >= 0 (perspective) or p - e >= 0
@@ -137,24 +121,25 @@ void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConst
     if (orthographic && z - radius > v.far) continue;
     if (outside(x, z, radius, v.left_edge, 1) || outside(x, z, radius, v.right_edge, -1)) continue;
     if (outside(y, z, radius, v.bottom_edge, 1) || outside(y, z, radius, v.top_edge, -1)) continue;
-    size_t n = visible.count++;
     visible.x[n] = x;
     visible.y[n] = y;
     visible.z[n] = z;
     visible.radius[n] = radius;
-    visible.index[n] = static_cast<uint32_t>(i);
+    visible.index[n++] = static_cast<uint32_t>(i);
   }
+  return n - begin;
 }
 
-void bound(const VisibleRun& visible, const BoundsConstants& c, LightBoxes& boxes) {
-  boxes.reserve(visible.count);
+void bound(const VisibleRun& visible, const BoundsConstants& c, LightBox* boxes) {
   for (size_t i = 0; i < visible.count; ++i) {
     FroxelBox box = bound_ball(c, visible.x[i], visible.y[i], visible.z[i], visible.radius[i]);
-    bool empty = box.empty();
-    boxes.first[i] = empty ? 0 : (box.y0 * c.grid.columns + box.x0) * c.grid.slices + box.z0;
-    boxes.columns[i] = empty ? 0 : box.x1 - box.x0 + 1u;
-    boxes.rows[i] = empty ? 0 : box.y1 - box.y0 + 1u;
-    boxes.slices[i] = empty ? 0 : box.z1 - box.z0 + 1u;
+    if (box.empty()) {
+      boxes[i] = {0, visible.index[i], 0, 0, 0};
+      continue;
+    }
+    boxes[i] = {c.grid.cell(box.x0, box.y0, box.z0), visible.index[i],
+                static_cast<uint16_t>(box.x1 - box.x0 + 1), static_cast<uint16_t>(box.y1 - box.y0 + 1),
+                box.z1 - box.z0 + 1u};
   }
 }
 

@@ -3,6 +3,7 @@
 // set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "algorithms/froxels/binning_simd.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -52,9 +53,8 @@ HWY_INLINE VU slice_of_depth(VF z, const gpu_data::SliceMapping& mapping) {
   return hn::BitCast(du, hn::ConvertTo(ds, slice));
 }
 
-void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& c,
-          VisibleLights& visible) {
-  visible.reserve(end - begin);
+size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& c,
+            VisibleLights& visible, DepthReach* reaches) {
   const gpu_data::ViewData& v = c.view;
   const bool orthographic = v.orthographic != 0;
   auto plane_length = [&](float edge) { return orthographic ? 1.0f : std::sqrt(1.0f + edge * edge); };
@@ -63,7 +63,7 @@ void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConst
   const VF bottom_length = constant(plane_length(v.bottom_edge)),
            top_length = constant(plane_length(v.top_edge));
   const size_t lanes = hn::Lanes(df);
-  size_t count = 0;
+  size_t next = begin;
   for (size_t i = begin; i < end; i += lanes) {
     VF wx = hn::LoadU(df, &lights.x[0] + i), wy = hn::LoadU(df, &lights.y[0] + i),
        wz = hn::LoadU(df, &lights.z[0] + i);
@@ -75,6 +75,9 @@ void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConst
     VF radius =
         hn::Add(hn::Mul(hn::LoadU(df, &lights.radius[0] + i), constant(widen_relative)),
                 hn::Mul(constant(widen_absolute), hn::Add(hn::Add(hn::Abs(wx), hn::Abs(wy)), hn::Abs(wz))));
+    if (reaches)
+      hn::StoreInterleaved2(hn::Neg(hn::Mul(hn::Sub(z, radius), constant(0.99999f))),
+                            hn::Mul(hn::Add(z, radius), constant(1.00001f)), df, &reaches[i].minus_low);
     VF minus_radius = hn::Neg(radius);
     auto distance = [&](VF p, float edge) {
       return hn::Sub(p, orthographic ? constant(edge) : hn::Mul(constant(edge), z));
@@ -88,15 +91,15 @@ void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConst
     MF keep = hn::AndNot(out, hn::FirstN(df, end - i));
     // Compressed in a register and stored whole: storing through a mask is microcoded, tens of times slower,
     // on some processors.
-    hn::StoreU(hn::Compress(x, keep), df, &visible.x[count]);
-    hn::StoreU(hn::Compress(y, keep), df, &visible.y[count]);
-    hn::StoreU(hn::Compress(z, keep), df, &visible.z[count]);
-    hn::StoreU(hn::Compress(radius, keep), df, &visible.radius[count]);
+    hn::StoreU(hn::Compress(x, keep), df, &visible.x[next]);
+    hn::StoreU(hn::Compress(y, keep), df, &visible.y[next]);
+    hn::StoreU(hn::Compress(z, keep), df, &visible.z[next]);
+    hn::StoreU(hn::Compress(radius, keep), df, &visible.radius[next]);
     VU index = hn::Iota(du, static_cast<uint32_t>(i));
-    hn::StoreU(hn::Compress(index, hn::RebindMask(du, keep)), du, &visible.index[count]);
-    count += hn::CountTrue(df, keep);
+    hn::StoreU(hn::Compress(index, hn::RebindMask(du, keep)), du, &visible.index[next]);
+    next += hn::CountTrue(df, keep);
   }
-  visible.count = count;
+  return next - begin;
 }
 
 struct Interval {
@@ -128,11 +131,11 @@ HWY_INLINE Interval perspective_interval(VF a, VF z, VF radius, VF near) {
 }
 
 template <bool orthographic>
-void bound_all(const VisibleRun& visible, const BoundsConstants& c, LightBoxes& boxes) {
+void bound_all(const VisibleRun& visible, const BoundsConstants& c, LightBox* boxes) {
   const size_t lanes = hn::Lanes(df);
   const VF near = constant(c.view.near), half_tile = constant(0.5f), inverse_tile = constant(c.inverse_tile);
   const VF before = constant(0.5f + widen_pixels), after = constant(0.5f - widen_pixels);
-  const VU columns = hn::Set(du, c.grid.columns), slices = hn::Set(du, c.grid.slices), one = hn::Set(du, 1);
+  const VU columns = hn::Set(du, c.grid.columns), rows = hn::Set(du, c.grid.rows), one = hn::Set(du, 1);
   for (size_t i = 0; i < visible.count; i += lanes) {
     VF x = hn::LoadU(df, visible.x + i), y = hn::LoadU(df, visible.y + i), z = hn::LoadU(df, visible.z + i);
     VF radius = hn::LoadU(df, visible.radius + i);
@@ -164,75 +167,77 @@ void bound_all(const VisibleRun& visible, const BoundsConstants& c, LightBoxes& 
     VU z0 = slice_of_depth(hn::Mul(hn::Sub(z, radius), constant(0.99999f)), c.grid.mapping);
     VU z1 = slice_of_depth(hn::Mul(hn::Add(z, radius), constant(1.00001f)), c.grid.mapping);
     auto kept_words = hn::RebindMask(du, kept);
-    VU first = hn::Add(hn::Mul(hn::Add(hn::Mul(y0, columns), x0), slices), z0);
-    hn::StoreU(hn::IfThenElseZero(kept_words, first), du, &boxes.first[i]);
-    hn::StoreU(hn::IfThenElseZero(kept_words, hn::Add(hn::Sub(x1, x0), one)), du, &boxes.columns[i]);
-    hn::StoreU(hn::IfThenElseZero(kept_words, hn::Add(hn::Sub(y1, y0), one)), du, &boxes.rows[i]);
-    hn::StoreU(hn::IfThenElseZero(kept_words, hn::Add(hn::Sub(z1, z0), one)), du, &boxes.slices[i]);
+    VU first = hn::Add(hn::Mul(hn::Add(hn::Mul(z0, rows), y0), columns), x0);
+    VU wide = hn::Add(hn::Sub(x1, x0), one), high = hn::Add(hn::Sub(y1, y0), one);
+    VU deep = hn::IfThenElseZero(kept_words, hn::Add(hn::Sub(z1, z0), one));
+    hn::StoreInterleaved4(hn::IfThenElseZero(kept_words, first), hn::LoadU(du, visible.index + i),
+                          hn::IfThenElseZero(kept_words, hn::Or(wide, hn::ShiftLeft<16>(high))), deep, du,
+                          &boxes[i].first);
   }
 }
 
-void bound(const VisibleRun& visible, const BoundsConstants& c, LightBoxes& boxes) {
-  boxes.reserve(visible.count);
+void bound(const VisibleRun& visible, const BoundsConstants& c, LightBox* boxes) {
   if (c.view.orthographic)
     bound_all<true>(visible, c, boxes);
   else
     bound_all<false>(visible, c, boxes);
 }
 
-void depth_ranges(const VisibleRun& visible, float* low, float* high) {
-  const size_t lanes = hn::Lanes(df);
-  for (size_t i = 0; i < visible.count; i += lanes) {
-    VF z = hn::LoadU(df, visible.z + i), radius = hn::LoadU(df, visible.radius + i);
-    hn::StoreU(hn::Mul(hn::Sub(z, radius), constant(0.99999f)), df, low + i);
-    hn::StoreU(hn::Mul(hn::Add(z, radius), constant(1.00001f)), df, high + i);
-  }
-}
-
-void emit(const VisibleRun& visible, const LightBoxes& boxes, const FroxelGrid& grid,
-          const BoxOffsets& offsets, FroxelPairs& pairs) {
-  const size_t lanes = hn::Lanes(du);
-  uint32_t* froxel = pairs.froxel.data();
+template <bool ordered>
+void emit_all(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+              const BoxOffsets& offsets, FroxelPairs& pairs) {
+  // Most boxes have four froxels or fewer: wider vectors would write more in vain.
+  constexpr hn::CappedTag<uint32_t, 8> de;
+  using VE = hn::Vec<hn::CappedTag<uint32_t, 8>>;
+  // Places jump about in more memory than the nearest caches hold, and are known long before.
+  constexpr size_t ahead = 24;
+  const size_t lanes = hn::Lanes(de);
+  uint32_t* cell = pairs.cell.data();
   uint32_t* light = pairs.light.data();
-  for (size_t i = 0; i < visible.count; ++i) {
-    const uint32_t columns = boxes.columns[i], rows = boxes.rows[i], slices = boxes.slices[i];
+  for (size_t i = 0; i < count; ++i) {
+    if (ordered) hwy::Prefetch(&boxes[places[i + ahead]]);
+    const LightBox& box = boxes[ordered ? places[i] : i];
+    const uint32_t columns = box.columns, rows = box.rows, slices = box.slices;
     const uint32_t total = columns * rows * slices;
     if (total == 0) continue;
-    const VU first = hn::Set(du, boxes.first[i]), index = hn::Set(du, visible.index[i]);
+    const VE first = hn::Set(de, box.first), index = hn::Set(de, box.light);
     constexpr uint32_t most = BoxOffsets::max_extent;
     if ((columns <= most) & (rows <= most) & (slices <= most)) {
       // Whole vectors are written; what is too much is overwritten by the next light.
       const uint32_t* table = offsets.get(columns, rows, slices);
       size_t k = 0;
       do {
-        hn::StoreU(hn::Add(first, hn::LoadU(du, table + k)), du, froxel + k);
-        hn::StoreU(index, du, light + k);
+        hn::StoreU(hn::Add(first, hn::LoadU(de, table + k)), de, cell + k);
+        hn::StoreU(index, de, light + k);
         k += lanes;
       } while (k < total);
-      froxel += total;
+      cell += total;
       light += total;
     } else {
-      for (uint32_t row = 0; row < rows; ++row)
-        for (uint32_t column = 0; column < columns; ++column) {
-          VU run = hn::Add(first, hn::Iota(du, (row * grid.columns + column) * grid.slices));
-          for (size_t k = 0; k < slices; k += lanes) {
-            hn::StoreU(run, du, froxel + k);
-            hn::StoreU(index, du, light + k);
-            run = hn::Add(run, hn::Set(du, static_cast<uint32_t>(lanes)));
-          }
-          froxel += slices;
-          light += slices;
+      for (uint32_t slice = 0; slice < slices; ++slice)
+        for (uint32_t row = 0; row < rows; ++row) {
+          VE run = hn::Add(first, hn::Iota(de, grid.cell(0, row, slice)));
+          size_t k = 0;
+          do {
+            hn::StoreU(run, de, cell + k);
+            hn::StoreU(index, de, light + k);
+            run = hn::Add(run, hn::Set(de, static_cast<uint32_t>(lanes)));
+            k += lanes;
+          } while (k < columns);
+          cell += columns;
+          light += columns;
         }
     }
   }
-  pairs.count = static_cast<size_t>(froxel - pairs.froxel.data());
+  pairs.count = static_cast<size_t>(cell - pairs.cell.data());
 }
 
-void gather(std::span<const uint32_t> table, std::span<const uint32_t> places, uint32_t* to) {
-  const size_t lanes = hn::Lanes(du), whole = places.size() / lanes * lanes;
-  for (size_t i = 0; i < whole; i += lanes)
-    hn::StoreU(hn::GatherIndex(du, table.data(), hn::BitCast(ds, hn::LoadU(du, &places[i]))), du, to + i);
-  for (size_t i = whole; i < places.size(); ++i) to[i] = table[places[i]];
+void emit(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+          const BoxOffsets& offsets, FroxelPairs& pairs) {
+  if (places)
+    emit_all<true>(boxes, places, count, grid, offsets, pairs);
+  else
+    emit_all<false>(boxes, nullptr, count, grid, offsets, pairs);
 }
 
 const char* target_name() {
@@ -247,27 +252,19 @@ namespace ml::simd {
 
 HWY_EXPORT(cull);
 HWY_EXPORT(bound);
-HWY_EXPORT(depth_ranges);
 HWY_EXPORT(emit);
-HWY_EXPORT(gather);
 HWY_EXPORT(target_name);
 
-void cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
-          VisibleLights& visible) {
-  HWY_DYNAMIC_DISPATCH(cull)(lights, begin, end, constants, visible);
+size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
+            VisibleLights& visible, DepthReach* reaches) {
+  return HWY_DYNAMIC_DISPATCH(cull)(lights, begin, end, constants, visible, reaches);
 }
-void bound(const VisibleRun& visible, const BoundsConstants& constants, LightBoxes& boxes) {
+void bound(const VisibleRun& visible, const BoundsConstants& constants, LightBox* boxes) {
   HWY_DYNAMIC_DISPATCH(bound)(visible, constants, boxes);
 }
-void depth_ranges(const VisibleRun& visible, float* low, float* high) {
-  HWY_DYNAMIC_DISPATCH(depth_ranges)(visible, low, high);
-}
-void emit(const VisibleRun& visible, const LightBoxes& boxes, const FroxelGrid& grid,
+void emit(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
           const BoxOffsets& offsets, FroxelPairs& pairs) {
-  HWY_DYNAMIC_DISPATCH(emit)(visible, boxes, grid, offsets, pairs);
-}
-void gather(std::span<const uint32_t> table, std::span<const uint32_t> places, uint32_t* to) {
-  HWY_DYNAMIC_DISPATCH(gather)(table, places, to);
+  HWY_DYNAMIC_DISPATCH(emit)(boxes, places, count, grid, offsets, pairs);
 }
 const char* target_name() {
   return HWY_DYNAMIC_DISPATCH(target_name)();

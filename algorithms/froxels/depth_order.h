@@ -7,39 +7,52 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/froxels/binning.h"
 #include "harness/base/parallel.h"
+#include "shaders/shared/view.h"
 
 namespace ml {
 
-// Depth as a number to sort by: 22 bits, in steps of 1/8192 of the depth. Centres behind the camera are 0.
-// Trees stay right for any order of their lights, only their bounds grow; steps this fine change none
-// noticeably.
-inline constexpr uint32_t depth_key_bits = 22;
-uint32_t depth_key(float z);
+// Depth as a number of 16 bits to sort by: steps of 1/2048 of the depth or finer while near and far are not
+// more than 30 octaves apart. Centres before the near plane are 0, those beyond the far depth 65535. Trees
+// stay right for any order of their lights, only their bounds grow; steps this fine change none noticeably.
+class DepthKey {
+ public:
+  static constexpr uint32_t bits = 16, most = (1u << bits) - 1;
+  explicit DepthKey(const gpu_data::ViewData& view);
+  uint32_t operator()(float z) const;
+
+ private:
+  uint32_t near_, far_, shift_;  // bits of positive floats, which ascend with their values
+};
+
+// A run of visible lights: elements [first, first + count) of arrays that all runs share.
+struct PlaceRun {
+  size_t first, count;
+};
 
 class DepthOrder {
  public:
-  // Gathers the lights of `parts`, one after the other, into `sorted`, in ascending order of depth key;
-  // lights of equal keys keep their order. sorted.index[rank] is the rank; light_of_rank()[rank] the light's
-  // index.
-  void sort(std::span<const VisibleLights* const> parts, VisibleLights& sorted, Threads& threads);
+  // Radix sort, least significant byte first. `z`: view depths by place; `runs`: the places in use,
+  // ascending, below 2^24. Lights of equal keys keep their order, so the result does not depend on the number
+  // of runs.
+  void sort(const float* z, std::span<const PlaceRun> runs, const DepthKey& key, Threads& threads);
 
-  std::span<const uint32_t> light_of_rank() const { return std::span(light_of_rank_).first(count_); }
+  // The place of each rank; vector padding behind them.
+  std::span<const uint32_t> places() const { return std::span(places_).first(count_); }
 
  private:
-  static constexpr uint32_t digit_bits = depth_key_bits / 2, digits = 1u << digit_bits;
+  static constexpr uint32_t digits = 256;
   using Histogram = std::array<uint32_t, digits>;
-  // Key in the upper half, place among the gathered lights in the lower.
-  using Item = uint64_t;
-  void scatter(const std::vector<Item>& from, std::vector<Item>& to, uint32_t shift, size_t runs,
-               Threads& threads);
+  struct Run {
+    Histogram low, high;  // counts, then where the next item of the digit goes
+  };
+  void begin_of_digits(size_t runs, Histogram Run::*histogram);
 
   size_t count_ = 0;
-  std::vector<Item> items_, scratch_;
-  std::vector<Histogram> histograms_;
-  VisibleLights gathered_;
-  std::vector<uint32_t> light_of_rank_;
+  std::vector<uint16_t> keys_;
+  // Upper byte of the key above 24 bits of place, in the order of the lower byte.
+  std::vector<uint32_t> items_, places_;
+  std::vector<Run> runs_;
 };
 
 }  // namespace ml

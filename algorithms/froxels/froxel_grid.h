@@ -9,8 +9,8 @@
 
 namespace ml {
 
-// Froxel (column, row, slice) has the number (row * columns + column) * slices + slice, so that one tile's
-// slices are neighbours in memory.
+// One slice's froxels are neighbours in memory: lights that come in the order of depth touch few slices at a
+// time, whose counters and lists then stay in the nearest caches.
 struct FroxelGrid {
   uint32_t tile = 0;               // px
   uint32_t columns = 0, rows = 0;  // the last ones may be partial
@@ -19,6 +19,11 @@ struct FroxelGrid {
   gpu_data::SliceMapping mapping{};
 
   uint32_t cells() const { return columns * rows * slices; }
+  uint32_t tiles() const { return columns * rows; }  // froxels of a slice
+  // The number of a froxel.
+  uint32_t cell(uint32_t column, uint32_t row, uint32_t slice) const {
+    return (slice * rows + row) * columns + column;
+  }
 
   // `tile`, `slices` >= 1; `zmin` > 0; `zmax` 0 takes the view's far. A zmax at or below zmin is raised to
   // just above it.

@@ -12,8 +12,6 @@ namespace {
 
 // A part is worth a thread only when it has some thousand lights.
 constexpr size_t lights_per_part = 2048;
-// Runs of sorted lights begin at multiples of this, so that whole vectors never reach into the next run.
-constexpr size_t run_alignment = 64;
 
 }  // namespace
 
@@ -24,35 +22,98 @@ void FroxelLists::too_many(uint64_t entries, uint64_t limit) const {
       owner_, entries, limit));
 }
 
-// `first_rank`: rank of the run's first light, when ordered by depth.
-void FroxelLists::emit(const FrameLights& lights, Part& part, const VisibleRun& visible, size_t first_rank,
-                       const BoundsConstants& constants, const FroxelSettings& settings,
+void FroxelLists::cull(const FrameInput& frame, bool by_depth, const BoundsConstants& constants) {
+  const size_t lights = frame.lights.count();
+  const size_t parts = std::clamp<size_t>(lights / lights_per_part, 1, frame.threads->count());
+  if (parts_.size() < parts) parts_.resize(parts);
+  visible_.reserve(lights);
+  if (by_depth) reserve_padded(reaches_, lights);
+  runs_.resize(parts);
+  frame.threads->for_each(parts, [&](size_t p) {
+    auto begin_of = [&](size_t part) {
+      return part == parts ? lights : lights * part / parts / vector_padding * vector_padding;
+    };
+    const size_t begin = begin_of(p);
+    runs_[p] = {begin, simd::cull(frame.lights, begin, begin_of(p + 1), constants, visible_,
+                                  by_depth ? reaches_.data() : nullptr)};
+  });
+  in_frustum_ = 0;
+  for (const PlaceRun& run : runs_) in_frustum_ += run.count;
+}
+
+void FroxelLists::bound(const FrameLights& lights, size_t p, bool by_depth,
+                        const BoundsConstants& constants) {
+  const PlaceRun run = runs_[p];
+  const VisibleRun visible(visible_, run.first, run.first + run.count);
+  LightBox* boxes = &boxes_[run.first];
+  simd::bound(visible, constants, boxes);
+  for (size_t i = 0; i < run.count && !lights.extra.empty(); ++i) {
+    const uint32_t light = visible.index[i];
+    const gpu_data::LightCore& core = lights.core[light];
+    if (core.id_shape >> 24 == ML_SHAPE_OMNI) continue;
+    DepthInterval depth = scalar::depth_interval(visible.z[i], visible.radius[i]);
+    tighten(constants, core, lights.extra[light], boxes[i], depth);
+    if (by_depth) reaches_[light] = {-depth.low, depth.high};
+  }
+  parts_[p].froxels = count_pairs(boxes, nullptr, run.count);
+}
+
+void FroxelLists::emit(size_t p, bool by_depth, bool refinement, const BoundsConstants& constants,
                        uint64_t max_entries) {
-  simd::bound(visible, constants, part.boxes);
-  const bool by_depth = settings.order == FroxelSettings::Order::depth;
-  if (!lights.extra.empty())
-    for (size_t i = 0; i < visible.count; ++i) {
-      const uint32_t light = by_depth ? light_of_rank()[visible.index[i]] : visible.index[i];
-      const gpu_data::LightCore& core = lights.core[light];
-      if (core.id_shape >> 24 == ML_SHAPE_OMNI) continue;
-      scalar::DepthInterval depth = scalar::depth_interval(visible.z[i], visible.radius[i]);
-      tighten(constants, core, lights.extra[light], part.boxes, i, depth);
-      if (!by_depth) continue;
-      depth_of_rank_.low[first_rank + i] = depth.low;
-      depth_of_rank_.high[first_rank + i] = depth.high;
-    }
-  uint64_t pairs = count_pairs(part.boxes, visible.count);
-  if (pairs > max_entries && !settings.refinement) too_many(pairs, max_entries);
+  Part& part = parts_[p];
+  const LightBox* boxes = boxes_.data();
+  size_t first = runs_[p].first, count = runs_[p].count;
+  const uint32_t* places = nullptr;
+  if (by_depth) {
+    first = in_frustum_ * p / runs_.size();
+    count = in_frustum_ * (p + 1) / runs_.size() - first;
+    places = order_.places().data() + first;
+    first = 0;
+    if (runs_.size() > 1) part.froxels = count_pairs(boxes, places, count);
+  }
+  const uint64_t pairs = part.froxels;
+  if (pairs > max_entries && !refinement) too_many(pairs, max_entries);
   // Refinement leaves out about a tenth; demand far beyond the limit is refused before memory is taken for
   // it.
   if (pairs > 4 * max_entries) too_many(pairs, max_entries);
   reserve_pairs(part.pairs, pairs);
-  if (settings.refinement)
-    emit_refined(visible, part.boxes, constants, planes_, part.pairs);
+  if (refinement)
+    emit_refined(visible_, boxes_.data(), places, first, count, constants, planes_, part.pairs);
   else
-    simd::emit(visible, part.boxes, grid_, box_offsets_, part.pairs);
+    simd::emit(boxes + first, places, count, grid_, box_offsets_, part.pairs);
   part.next.assign(grid_.cells(), 0);
-  for (size_t i = 0; i < part.pairs.count; ++i) ++part.next[part.pairs.froxel[i]];
+  for (size_t i = 0; i < part.pairs.count; ++i) ++part.next[part.pairs.cell[i]];
+}
+
+// Within a froxel the entries of part 0 come first, so that lists ascend.
+void FroxelLists::scatter(Threads& threads) {
+  reserve_padded(list_, entries_);
+  reserve_padded(offsets_, grid_.cells() + size_t{1});
+  const size_t parts = runs_.size();
+  uint32_t running = 0;
+  for (uint32_t cell = 0; cell < grid_.cells(); ++cell) {
+    offsets_[cell] = running;
+    for (size_t p = 0; p < parts; ++p) {
+      uint32_t& next = parts_[p].next[cell];
+      running += next;
+      next = running - next;
+    }
+  }
+  offsets_[grid_.cells()] = running;
+  threads.for_each(parts, [&](size_t p) {
+    const FroxelPairs& pairs = parts_[p].pairs;
+    uint32_t* next = parts_[p].next.data();
+    // Lights in the order of depth fill the lists nearly from front to back: what they will come to in a
+    // slice or two is asked for, a cache line at a time.
+    constexpr size_t line = 16;
+    size_t ahead = 2 * entries_ / grid_.slices;
+    for (size_t before = 0; before < p; ++before) ahead += parts_[before].pairs.count;
+    for (size_t begin = 0; begin < pairs.count; begin += line) {
+      __builtin_prefetch(&list_[std::min(begin + ahead, entries_)], 1);
+      const size_t end = std::min(begin + line, pairs.count);
+      for (size_t i = begin; i < end; ++i) list_[next[pairs.cell[i]]++] = pairs.light[i];
+    }
+  });
 }
 
 void FroxelLists::build(const FrameInput& frame, const FroxelSettings& settings, uint64_t max_entries,
@@ -60,63 +121,26 @@ void FroxelLists::build(const FrameInput& frame, const FroxelSettings& settings,
   grid_ = FroxelGrid::make(frame.view, settings.tile, settings.slices, settings.zmin, settings.zmax);
   const BoundsConstants constants(frame.view, grid_);
   const bool by_depth = settings.order == FroxelSettings::Order::depth;
-  const size_t lights = frame.lights.count();
-  const size_t parts = std::clamp<size_t>(lights / lights_per_part, 1, frame.threads->count());
-  if (parts_.size() < parts) parts_.resize(parts);
   {
     auto span = spans.span("cull");
-    frame.threads->for_each(parts, [&](size_t p) {
-      size_t begin = lights * p / parts, end = lights * (p + 1) / parts;
-      simd::cull(frame.lights, begin, end, constants, parts_[p].visible);
-    });
-    in_frustum_ = 0;
-    for (size_t p = 0; p < parts; ++p) in_frustum_ += parts_[p].visible.count;
+    cull(frame, by_depth, constants);
   }
-  auto run_begin = [&](size_t p) {
-    return p == parts ? in_frustum_ : in_frustum_ * p / parts / run_alignment * run_alignment;
-  };
+  Threads& threads = *frame.threads;
   if (by_depth) {
     auto span = spans.span("sort");
-    culled_.clear();
-    for (size_t p = 0; p < parts; ++p) culled_.push_back(&parts_[p].visible);
-    order_.sort(culled_, sorted_, *frame.threads);
+    order_.sort(visible_.z.data(), runs_, DepthKey(frame.view), threads);
   }
-
   auto span = spans.span("bin");
   box_offsets_.build(grid_);
   if (settings.refinement) planes_.build(constants);
-  if (by_depth) depth_of_rank_.reserve(in_frustum_);
-  frame.threads->for_each(parts, [&](size_t p) {
-    if (!by_depth)
-      return emit(frame.lights, parts_[p], parts_[p].visible, 0, constants, settings, max_entries);
-    VisibleRun run(sorted_, run_begin(p), run_begin(p + 1));
-    simd::depth_ranges(run, &depth_of_rank_.low[run_begin(p)], &depth_of_rank_.high[run_begin(p)]);
-    emit(frame.lights, parts_[p], run, run_begin(p), constants, settings, max_entries);
-  });
-
-  uint64_t total = 0;
-  for (size_t p = 0; p < parts; ++p) total += parts_[p].pairs.count;
-  if (total > max_entries) too_many(total, max_entries);
-  entries_ = total;
-  if (list_.size() < entries_) list_.resize(entries_ + entries_ / 4);
-  if (offsets_.size() < grid_.cells() + size_t{1}) offsets_.resize(grid_.cells() + size_t{1});
-
-  // Counting sort: within a froxel the entries of part 0 come first, so that lists ascend.
-  uint32_t running = 0;
-  for (uint32_t cell = 0; cell < grid_.cells(); ++cell) {
-    offsets_[cell] = running;
-    for (size_t p = 0; p < parts; ++p) {
-      uint32_t count = parts_[p].next[cell];
-      parts_[p].next[cell] = running;
-      running += count;
-    }
-  }
-  offsets_[grid_.cells()] = running;
-  frame.threads->for_each(parts, [&](size_t p) {
-    Part& part = parts_[p];
-    for (size_t i = 0; i < part.pairs.count; ++i)
-      list_[part.next[part.pairs.froxel[i]]++] = part.pairs.light[i];
-  });
+  reserve_padded(boxes_, frame.lights.count());
+  threads.for_each(runs_.size(), [&](size_t p) { bound(frame.lights, p, by_depth, constants); });
+  threads.for_each(runs_.size(),
+                   [&](size_t p) { emit(p, by_depth, settings.refinement, constants, max_entries); });
+  entries_ = 0;
+  for (size_t p = 0; p < runs_.size(); ++p) entries_ += parts_[p].pairs.count;
+  if (entries_ > max_entries) too_many(entries_, max_entries);
+  scatter(threads);
 }
 
 }  // namespace ml

@@ -14,7 +14,8 @@
 namespace ml {
 
 struct FroxelSettings {
-  // What a list's entries are, and what they ascend by: light indices, or ranks in the order of depth.
+  // What a list's light indices ascend by: themselves, or their centres' depth (DepthKey; equal ones by
+  // index).
   enum class Order { index, depth };
   uint32_t tile = 24;  // px
   uint32_t slices = 16;
@@ -36,34 +37,39 @@ class FroxelLists {
   const FroxelGrid& grid() const { return grid_; }
   // Where each froxel's list begins in entries(), and one more: the end of the last.
   std::span<const uint32_t> offsets() const { return std::span(offsets_).first(grid_.cells() + size_t{1}); }
+  // Light indices.
   std::span<const uint32_t> entries() const { return std::span(list_).first(entries_); }
   uint64_t lights_in_frustum() const { return in_frustum_; }
 
-  // Order by depth only: light index and depth range (m) of each rank.
-  std::span<const uint32_t> light_of_rank() const { return order_.light_of_rank(); }
-  const DepthRanges& depth_of_rank() const { return depth_of_rank_; }
+  // Order by depth only: the depths (m) that each light in a list reaches, by light index.
+  std::span<const DepthReach> reach_of_light() const { return reaches_; }
 
  private:
-  // One contiguous run of lights; each part is worked on by one thread at a time.
+  // A run of lights, worked on by one thread at a time: first one of the frame's lights, then one of the
+  // visible lights in the order of lists.
   struct Part {
-    VisibleLights visible;
-    LightBoxes boxes;
+    uint64_t froxels = 0;  // of its lights' boxes
     FroxelPairs pairs;
     std::vector<uint32_t> next;  // per froxel: first the part's count, then where its next entry goes
   };
-  void emit(const FrameLights& lights, Part& part, const VisibleRun& visible, size_t first_rank,
-            const BoundsConstants& constants, const FroxelSettings& settings, uint64_t max_entries);
+  void cull(const FrameInput& frame, bool by_depth, const BoundsConstants& constants);
+  void bound(const FrameLights& lights, size_t p, bool by_depth, const BoundsConstants& constants);
+  void emit(size_t p, bool by_depth, bool refinement, const BoundsConstants& constants, uint64_t max_entries);
+  // Counting sort of all pairs into the lists.
+  void scatter(Threads& threads);
   [[noreturn]] void too_many(uint64_t entries, uint64_t limit) const;
 
   std::string owner_;
   FroxelGrid grid_;
   BoxOffsets box_offsets_;
   RefinementPlanes planes_;
+  // One for each of runs_ and of parts_ is in use.
+  std::vector<PlaceRun> runs_;
   std::vector<Part> parts_;
-  std::vector<const VisibleLights*> culled_;
+  VisibleLights visible_;
+  std::vector<DepthReach> reaches_;
   DepthOrder order_;
-  VisibleLights sorted_;
-  DepthRanges depth_of_rank_;
+  std::vector<LightBox> boxes_;  // by place in visible_
   std::vector<uint32_t> offsets_, list_;
   size_t entries_ = 0;
   uint64_t in_frustum_ = 0;

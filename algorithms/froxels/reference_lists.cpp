@@ -14,20 +14,20 @@ void for_each_froxel(const FroxelBox& box, const FroxelGrid& grid, Visit visit) 
   if (box.empty()) return;
   for (uint32_t y = box.y0; y <= box.y1; ++y)
     for (uint32_t x = box.x0; x <= box.x1; ++x)
-      for (uint32_t z = box.z0; z <= box.z1; ++z) visit((y * grid.columns + x) * grid.slices + z);
+      for (uint32_t z = box.z0; z <= box.z1; ++z) visit(grid.cell(x, y, z));
 }
 
 }  // namespace
 
 // Least significant byte first; stable.
-void ReferenceLists::sort_by_depth() {
+void ReferenceLists::sort_by_depth(const DepthKey& key_of) {
   const size_t count = visible_.count;
   keys_.resize(count);
   order_.resize(count);
   scratch_.resize(count);
-  for (size_t i = 0; i < count; ++i) keys_[i] = depth_key(visible_.z[i]);
+  for (size_t i = 0; i < count; ++i) keys_[i] = key_of(visible_.z[i]);
   std::iota(order_.begin(), order_.end(), 0u);
-  for (uint32_t shift = 0; shift < depth_key_bits; shift += 8) {
+  for (uint32_t shift = 0; shift < DepthKey::bits; shift += 8) {
     std::array<uint32_t, 256> next{};
     for (uint32_t key : keys_) ++next[key >> shift & 255];
     uint32_t running = 0;
@@ -53,26 +53,23 @@ void ReferenceLists::sort_by_depth() {
 
 void ReferenceLists::tighten_shapes(const FrameLights& all, const BoundsConstants& constants,
                                     const VisibleLights& lights, bool by_depth) {
-  LightBoxes one;
-  one.reserve(1);
   for (size_t i = 0; i < lights.count; ++i) {
     const uint32_t light = by_depth ? light_of_rank_[i] : lights.index[i];
     FroxelBox& box = boxes_[i];
     if (all.core[light].id_shape >> 24 == ML_SHAPE_OMNI) continue;
-    scalar::DepthInterval depth = scalar::depth_interval(lights.z[i], lights.radius[i]);
+    DepthInterval depth = scalar::depth_interval(lights.z[i], lights.radius[i]);
     if (!box.empty()) {
-      one.first[0] = (box.y0 * grid_.columns + box.x0) * grid_.slices + box.z0;
-      one.columns[0] = box.x1 - box.x0 + 1u, one.rows[0] = box.y1 - box.y0 + 1u,
-      one.slices[0] = box.z1 - box.z0 + 1u;
-      tighten(constants, all.core[light], all.extra[light], one, 0, depth);
-      if (one.columns[0] == 0) {
+      auto narrow = [](uint32_t value) { return static_cast<uint16_t>(value); };
+      LightBox one{grid_.cell(box.x0, box.y0, box.z0), light, narrow(box.x1 - box.x0 + 1u),
+                   narrow(box.y1 - box.y0 + 1u), box.z1 - box.z0 + 1u};
+      tighten(constants, all.core[light], all.extra[light], one, depth);
+      if (one.columns == 0) {
         box = {};
       } else {
-        const uint32_t first = one.first[0], x = first / grid_.slices % grid_.columns,
-                       y = first / grid_.slices / grid_.columns, z = first % grid_.slices;
-        auto narrow = [](uint32_t value) { return static_cast<uint16_t>(value); };
-        box = {narrow(x), narrow(x + one.columns[0] - 1), narrow(y), narrow(y + one.rows[0] - 1),
-               narrow(z), narrow(z + one.slices[0] - 1)};
+        const uint32_t x = one.first % grid_.columns, y = one.first / grid_.columns % grid_.rows,
+                       z = one.first / grid_.columns / grid_.rows;
+        box = {narrow(x), narrow(x + one.columns - 1), narrow(y), narrow(y + one.rows - 1),
+               narrow(z), narrow(z + one.slices - 1)};
       }
     }
     if (by_depth) depth_of_rank_[i] = depth;
@@ -82,9 +79,10 @@ void ReferenceLists::tighten_shapes(const FrameLights& all, const BoundsConstant
 void ReferenceLists::build(const FrameInput& frame, const FroxelSettings& settings) {
   grid_ = FroxelGrid::make(frame.view, settings.tile, settings.slices, settings.zmin, settings.zmax);
   const BoundsConstants constants(frame.view, grid_);
-  scalar::cull(frame.lights, 0, frame.lights.count(), constants, visible_);
+  visible_.reserve(frame.lights.count());
+  visible_.count = scalar::cull(frame.lights, 0, frame.lights.count(), constants, visible_);
   const bool by_depth = settings.order == FroxelSettings::Order::depth;
-  if (by_depth) sort_by_depth();
+  if (by_depth) sort_by_depth(DepthKey(frame.view));
   const VisibleLights& lights = by_depth ? sorted_ : visible_;
   boxes_.resize(lights.count);
   for (size_t i = 0; i < lights.count; ++i)

@@ -19,10 +19,10 @@ class ReferenceLists {
 
   // Order by depth only: light index and depth range (m) of each rank.
   const std::vector<uint32_t>& light_of_rank() const { return light_of_rank_; }
-  const std::vector<scalar::DepthInterval>& depth_of_rank() const { return depth_of_rank_; }
+  const std::vector<DepthInterval>& depth_of_rank() const { return depth_of_rank_; }
 
  private:
-  void sort_by_depth();
+  void sort_by_depth(const DepthKey& key);
   void tighten_shapes(const FrameLights& all, const BoundsConstants& constants, const VisibleLights& lights,
                       bool by_depth);
 
@@ -31,7 +31,7 @@ class ReferenceLists {
   std::vector<FroxelBox> boxes_;
   std::vector<uint32_t> offsets_, next_, entries_;
   std::vector<uint32_t> keys_, order_, scratch_, light_of_rank_;
-  std::vector<scalar::DepthInterval> depth_of_rank_;
+  std::vector<DepthInterval> depth_of_rank_;
 };
 
 }  // namespace ml

@@ -26,18 +26,21 @@ void RefinementPlanes::build(const BoundsConstants& c) {
   }
 }
 
-void emit_refined(const VisibleRun& visible, const LightBoxes& boxes, const BoundsConstants& c,
-                  const RefinementPlanes& planes, FroxelPairs& pairs) {
+void emit_refined(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places,
+                  size_t first_place, size_t count, const BoundsConstants& c, const RefinementPlanes& planes,
+                  FroxelPairs& pairs) {
   const FroxelGrid& grid = c.grid;
   const bool orthographic = c.view.orthographic != 0;
   size_t n = 0;
-  for (size_t i = 0; i < visible.count; ++i) {
-    if (boxes.columns[i] == 0) continue;
+  for (size_t k = 0; k < count; ++k) {
+    const size_t i = places ? places[k] : first_place + k;
+    const LightBox& box = boxes[i];
+    if (box.columns == 0) continue;
     const float x = visible.x[i], y = visible.y[i], z = visible.z[i], radius = visible.radius[i];
-    const uint32_t first = boxes.first[i], z0 = first % grid.slices;
-    const uint32_t column0 = first / grid.slices % grid.columns, row0 = first / grid.slices / grid.columns;
-    const uint32_t column1 = column0 + boxes.columns[i] - 1;
-    for (uint32_t row = row0; row < row0 + boxes.rows[i]; ++row) {
+    const uint32_t column0 = box.first % grid.columns, row0 = box.first / grid.columns % grid.rows;
+    const uint32_t z0 = box.first / grid.columns / grid.rows;
+    const uint32_t column1 = column0 + box.columns - 1;
+    for (uint32_t row = row0; row < row0 + box.rows; ++row) {
       // Distance from the centre to the wedge (or slab) of the row.
       const float low = planes.row_low[row], high = planes.row_high[row];
       float above = orthographic ? y - high : (y - high * z) / std::sqrt(1 + high * high);
@@ -45,7 +48,7 @@ void emit_refined(const VisibleRun& visible, const LightBoxes& boxes, const Boun
       float row_distance = std::max({above, below, 0.0f});
       float row_left = radius * radius - row_distance * row_distance;
       if (!(row_left >= 0)) continue;
-      for (uint32_t slice = z0; slice < z0 + boxes.slices[i]; ++slice) {
+      for (uint32_t slice = z0; slice < z0 + box.slices; ++slice) {
         const FroxelGrid::DepthRange range = planes.slices[slice];
         float slice_distance = distance_to(z, range.low, range.high);
         float left = std::min(row_left, radius * radius - slice_distance * slice_distance);
@@ -66,8 +69,8 @@ void emit_refined(const VisibleRun& visible, const LightBoxes& boxes, const Boun
         uint32_t from = std::max(column0, static_cast<uint32_t>((pixel0 + 0.5f) * c.inverse_tile));
         uint32_t to = std::min(column1, static_cast<uint32_t>((pixel1 + 0.5f) * c.inverse_tile));
         for (uint32_t column = from; column <= to; ++column) {
-          pairs.froxel[n] = (row * grid.columns + column) * grid.slices + slice;
-          pairs.light[n++] = visible.index[i];
+          pairs.cell[n] = grid.cell(column, row, slice);
+          pairs.light[n++] = box.light;
         }
       }
     }

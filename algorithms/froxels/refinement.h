@@ -15,9 +15,11 @@ struct RefinementPlanes {
   void build(const BoundsConstants& constants);
 };
 
-// Writes the pairs of all boxes, narrowed; never leaves out a froxel that holds a pixel centre's ray inside
-// the ball.
-void emit_refined(const VisibleRun& visible, const LightBoxes& boxes, const BoundsConstants& constants,
-                  const RefinementPlanes& planes, FroxelPairs& pairs);
+// Writes the pairs of boxes, narrowed; never leaves out a froxel that holds a pixel centre's ray inside the
+// ball. The boxes and their lights are those at places[0..count), or without places at [first, first +
+// count).
+void emit_refined(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
+                  size_t count, const BoundsConstants& constants, const RefinementPlanes& planes,
+                  FroxelPairs& pairs);
 
 }  // namespace ml

@@ -54,21 +54,21 @@ struct Place {
   uint32_t x0, x1, y0, y1, z0, z1;
 };
 
-Place place_of(const LightBoxes& boxes, size_t i, const FroxelGrid& grid) {
-  const uint32_t first = boxes.first[i], z0 = first % grid.slices, x0 = first / grid.slices % grid.columns,
-                 y0 = first / grid.slices / grid.columns;
-  return {x0, x0 + boxes.columns[i] - 1, y0, y0 + boxes.rows[i] - 1, z0, z0 + boxes.slices[i] - 1};
+Place place_of(const LightBox& box, const FroxelGrid& grid) {
+  const uint32_t x0 = box.first % grid.columns, y0 = box.first / grid.columns % grid.rows,
+                 z0 = box.first / grid.columns / grid.rows;
+  return {x0, x0 + box.columns - 1, y0, y0 + box.rows - 1, z0, z0 + box.slices - 1};
 }
 
-void put(const Place& place, LightBoxes& boxes, size_t i, const FroxelGrid& grid) {
+void put(const Place& place, LightBox& box, const FroxelGrid& grid) {
   if (place.x0 > place.x1 || place.y0 > place.y1 || place.z0 > place.z1) {
-    boxes.first[i] = boxes.columns[i] = boxes.rows[i] = boxes.slices[i] = 0;
+    box = {0, box.light, 0, 0, 0};
     return;
   }
-  boxes.first[i] = (place.y0 * grid.columns + place.x0) * grid.slices + place.z0;
-  boxes.columns[i] = place.x1 - place.x0 + 1;
-  boxes.rows[i] = place.y1 - place.y0 + 1;
-  boxes.slices[i] = place.z1 - place.z0 + 1;
+  box.first = grid.cell(place.x0, place.y0, place.z0);
+  box.columns = static_cast<uint16_t>(place.x1 - place.x0 + 1);
+  box.rows = static_cast<uint16_t>(place.y1 - place.y0 + 1);
+  box.slices = place.z1 - place.z0 + 1;
 }
 
 // First and last tile whose pixel centres lie between two places in pixels; `low` > `high` for none.
@@ -88,9 +88,9 @@ void narrow(double pixel0, double pixel1, double last_pixel, uint32_t tile, uint
 // Both ends of a capsule as balls: their bounds together hold all between, as long as both are wholly in
 // front.
 bool capsule_box(const BoundsConstants& c, const gpu_data::LightCore& core, const gpu_data::LightExtra& extra,
-                 Place& place, scalar::DepthInterval& depth) {
+                 Place& place, DepthInterval& depth) {
   FroxelBox ends[2];
-  scalar::DepthInterval depths[2];
+  DepthInterval depths[2];
   for (int end = 0; end < 2; ++end) {
     const glm::vec3 at = core.position + extra.side * (end == 0 ? -extra.half_length : extra.half_length);
     const float radius = core.radius * 1.0001f + static_cast<float>(slack(core, extra));
@@ -154,9 +154,9 @@ bool hull_corners(const gpu_data::LightCore& core, const gpu_data::LightExtra& e
 }
 
 void tighten(const BoundsConstants& c, const gpu_data::LightCore& core, const gpu_data::LightExtra& extra,
-             LightBoxes& boxes, size_t i, scalar::DepthInterval& depth) {
-  if (boxes.columns[i] == 0) return;
-  Place place = place_of(boxes, i, c.grid);
+             LightBox& box, DepthInterval& depth) {
+  if (box.columns == 0) return;
+  Place place = place_of(box, c.grid);
   HullCorners corners;
   if (core.id_shape >> 24 == ML_SHAPE_CAPSULE) {
     if (!capsule_box(c, core, extra, place, depth)) return;
@@ -179,7 +179,7 @@ void tighten(const BoundsConstants& c, const gpu_data::LightCore& core, const gp
              c.grid.tile, place.y0, place.y1);
     }
   }
-  put(place, boxes, i, c.grid);
+  put(place, box, c.grid);
 }
 
 }  // namespace ml

@@ -17,9 +17,8 @@ using HullCorners = std::array<glm::dvec3, 8>;
 // bound.
 bool hull_corners(const gpu_data::LightCore& core, const gpu_data::LightExtra& extra, HullCorners& corners);
 
-// Narrows box and depth range of light `i` of a run, which come from its bounding ball, to what its shape
-// reaches.
+// Narrows a light's box and depth interval, which come from its bounding ball, to what its shape reaches.
 void tighten(const BoundsConstants& constants, const gpu_data::LightCore& core,
-             const gpu_data::LightExtra& extra, LightBoxes& boxes, size_t i, scalar::DepthInterval& depth);
+             const gpu_data::LightExtra& extra, LightBox& box, DepthInterval& depth);
 
 }  // namespace ml

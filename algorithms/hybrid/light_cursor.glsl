@@ -14,7 +14,7 @@ shared TreeNode shared_nodes[SHARED_TREE ? shared_capacity : 1u];
 
 uint light_cell(SurfacePoint point) {
   uvec2 tile = point.pixel / tile_size;
-  return (tile.y * tile_columns + tile.x) * slice_count + slice_of_depth(point.depth, slice_mapping);
+  return slice_of_depth(point.depth, slice_mapping) * tile_count + tile.y * tile_columns + tile.x;
 }
 
 LightCursor light_begin(SurfacePoint point) { return cell_begin(light_cell(point), point.depth, true); }

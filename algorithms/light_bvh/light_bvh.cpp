@@ -59,7 +59,9 @@ class LightBvh final : public Algorithm {
     // One froxel: only the planes of the view count.
     const FroxelGrid grid = FroxelGrid::make(
         frame.view, std::max(frame.view.resolution.x, frame.view.resolution.y), 1, frame.view.near, 0);
-    simd::cull(frame.lights, 0, frame.lights.count(), BoundsConstants(frame.view, grid), culled_);
+    culled_.reserve(frame.lights.count());
+    culled_.count =
+        simd::cull(frame.lights, 0, frame.lights.count(), BoundsConstants(frame.view, grid), culled_);
     visible_.assign(frame.lights.count(), 0);
     for (size_t i = 0; i < culled_.count; ++i) visible_[culled_.index[i]] = 1;
     counters_.in_frustum = culled_.count;

@@ -1,6 +1,7 @@
 #include "algorithms/trees/reference_forest.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace ml {
@@ -20,14 +21,15 @@ void list_depth_first(uint32_t node, uint32_t nodes, std::vector<uint32_t>& tabl
 
 bool ReferenceForest::wants_tree(const ReferenceLists& lists, uint32_t cell, float threshold) const {
   if (threshold == infinity) return true;
-  const FroxelGrid::DepthRange extent = cell_depths_[cell % lists.grid().slices];
+  const FroxelGrid::DepthRange extent = cell_depths_[cell / lists.grid().tiles()];
   const uint32_t begin = lists.offsets()[cell], end = lists.offsets()[cell + 1];
-  float sum = 0;
+  uint64_t sum = 0;
   for (uint32_t i = begin; i < end; ++i) {
-    const scalar::DepthInterval light = lists.depth_of_rank()[lists.entries()[i]];
-    sum += std::max(std::min(light.high, extent.high) - std::max(light.low, extent.low), 0.0f);
+    const DepthInterval light = lists.depth_of_rank()[lists.entries()[i]];
+    const float clipped = std::min(light.high, extent.high) - std::max(light.low, extent.low);
+    sum += static_cast<uint64_t>(std::nearbyint(std::max(clipped, 0.0f) * extent_steps(extent)));
   }
-  return sum < threshold * (extent.high - extent.low) * static_cast<float>(end - begin);
+  return is_tree(sum, end - begin, threshold);
 }
 
 void ReferenceForest::append(const Node& node) {
@@ -45,7 +47,7 @@ void ReferenceForest::build_tree(const ReferenceLists& lists, uint32_t cell, uin
   for (uint32_t leaf = 0; leaf < leaves; ++leaf) {
     Node node{infinity, -infinity, 0, 0, 1, true};
     for (uint32_t i = leaf * per_leaf; i < std::min((leaf + 1) * per_leaf, count); ++i) {
-      const scalar::DepthInterval light = lists.depth_of_rank()[lists.entries()[begin + i]];
+      const DepthInterval light = lists.depth_of_rank()[lists.entries()[begin + i]];
       node.low = std::min(node.low, light.low);
       node.high = std::max(node.high, light.high);
       if (node.lights++ == 0) node.first = begin + i;
@@ -79,11 +81,12 @@ void ReferenceForest::build(const ReferenceLists& lists, const ForestSettings& s
     if (count > per_leaf && wants_tree(lists, cell, settings.threshold)) {
       build_tree(lists, cell, per_leaf, settings.trim_padding);
     } else {
-      for (uint32_t part = 0; part < count; part += ML_TREE_MAX_LEAF_LIGHTS) {
-        Node node{infinity, -infinity, begin + part, std::min(count - part, ML_TREE_MAX_LEAF_LIGHTS),
-                  1,        true};
+      // Where one leaf cannot count a list's lights, each part is as many of its leaves as one can.
+      const uint32_t most = ML_TREE_MAX_LEAF_LIGHTS / per_leaf * per_leaf;
+      for (uint32_t part = 0; part < count; part += most) {
+        Node node{infinity, -infinity, begin + part, std::min(count - part, most), 1, true};
         for (uint32_t i = 0; i < node.lights; ++i) {
-          const scalar::DepthInterval light = lists.depth_of_rank()[lists.entries()[begin + part + i]];
+          const DepthInterval light = lists.depth_of_rank()[lists.entries()[begin + part + i]];
           node.low = std::min(node.low, light.low);
           node.high = std::max(node.high, light.high);
         }

@@ -15,7 +15,7 @@ enum Slot : uint32_t { grid_slot, first_nodes_slot, nodes_slot, indices_slot };
 // As the walk reads it.
 struct GridHeader {
   gpu_data::SliceMapping mapping;
-  uint32_t tile, columns, slices;
+  uint32_t tile, columns, tiles;
 };
 
 }  // namespace
@@ -41,7 +41,7 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
 
   auto span = spans.span("upload");
   const FroxelGrid& grid = lists_.grid();
-  const GridHeader header{grid.mapping, grid.tile, grid.columns, grid.slices};
+  const GridHeader header{grid.mapping, grid.tile, grid.columns, grid.tiles()};
   std::memcpy(memory.map(grid_slot, sizeof header).data(), &header, sizeof header);
   const auto first_nodes = forest_.first_nodes();
   std::memcpy(memory.map(first_nodes_slot, first_nodes.size_bytes()).data(), first_nodes.data(),
@@ -49,8 +49,8 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
   forest_.copy_nodes(reinterpret_cast<gpu_data::TreeNode*>(memory.map(nodes_slot, node_bytes).data()),
                      *frame.threads);
   const auto entries = lists_.entries();
-  simd::gather(lists_.light_of_rank(), entries,
-               reinterpret_cast<uint32_t*>(memory.map(indices_slot, entries.size_bytes()).data()));
+  const auto indices = memory.map(indices_slot, entries.size_bytes());
+  if (!entries.empty()) std::memcpy(indices.data(), entries.data(), entries.size_bytes());
 
   counters_.in_frustum = lists_.lights_in_frustum();
   counters_.list_bytes = first_nodes.size_bytes() + node_bytes + entries.size_bytes();

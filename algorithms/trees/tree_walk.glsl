@@ -7,7 +7,7 @@
 
 layout(scalar, binding = 16) readonly buffer Grid {
   SliceMapping slice_mapping;
-  uint tile_size, tile_columns, slice_count;
+  uint tile_size, tile_columns, tile_count;
 };
 layout(scalar, binding = 17) readonly buffer FirstNodes { uint first_nodes[]; };
 layout(scalar, binding = 18) readonly buffer TreeNodes { TreeNode tree_nodes[]; };

@@ -57,7 +57,8 @@ TEST(FinePruned, VisibleLightsAreSortedByTypeAndLeftInOrder) {
     list.cull(frame.frame, spans);
     VisibleLights visible;
     const BoundsConstants constants(frame.frame.view, FroxelGrid::make(frame.frame.view, 16, 1, 5, 0));
-    scalar::cull(frame.frame.lights, 0, lights.size(), constants, visible);
+    visible.reserve(lights.size());
+    visible.count = scalar::cull(frame.frame.lights, 0, lights.size(), constants, visible);
     std::vector<uint32_t> expected(visible.index.begin(),
                                    visible.index.begin() + static_cast<ptrdiff_t>(visible.count));
     std::stable_sort(expected.begin(), expected.end(), [&](uint32_t a, uint32_t b) {

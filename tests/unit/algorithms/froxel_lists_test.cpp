@@ -39,8 +39,9 @@ TEST(FroxelLists, EveryLightIsListedWhereverAPixelCanSeeInsideIt) {
       uint32_t x = random.below(width), y = random.below(height);
       float depth = log_uniform(random, view.near, std::min(view.far, 1000.0f));
       glm::dvec3 point = point_at(view, x, y, static_cast<double>(depth));
-      uint32_t froxel = ((y / settings.tile) * lists.grid().columns + x / settings.tile) * settings.slices +
-                        gpu_data::slice_of_depth(depth, lists.grid().mapping);
+      const FroxelGrid& grid = lists.grid();
+      uint32_t froxel =
+          grid.cell(x / settings.tile, y / settings.tile, gpu_data::slice_of_depth(depth, grid.mapping));
       std::vector<uint32_t> list = list_of(lists, froxel);
       for (uint32_t light = 0; light < fixture.frame.lights.count(); ++light) {
         const gpu_data::LightCore& core = fixture.frame.lights.core[light];

@@ -1,0 +1,70 @@
+// Trees and lists of a run of neighbouring cells: the part of the build that one thread does at a time.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/froxels/froxel_lists.h"
+#include "algorithms/trees/tree_node.h"
+
+namespace ml {
+
+struct ForestSettings {
+  uint32_t lights_per_leaf = 8;  // [1, 64]; raised where a tree would have more leaves than its fields hold
+  // Listing 2: a cell becomes a tree when the mean of its lights' depth extents, clipped to the cell, is
+  // below this part of the cell's own extent; else a list. Infinite: always a tree. 0: always a list.
+  float threshold = 1;
+  // Leave out the nodes behind the last leaf that has lights: only padding.
+  bool trim_padding = true;
+};
+
+struct ForestChunk {
+  uint32_t first_cell = 0, end_cell = 0;
+  std::vector<gpu_data::TreeNode> nodes;
+  size_t count = 0;  // of nodes in use
+  uint64_t list_cells = 0, tree_cells = 0;
+  // Scratch: the depths of the lights in one row of froxels, and the bounds of one cell's tree level by
+  // level.
+  std::vector<DepthReach> reaches;
+  std::vector<float> low, high;
+};
+
+namespace simd {
+// Builds the cells of the chunk; first_nodes[cell] becomes the place of the cell's first node in chunk.nodes.
+// `cell_depths`: of each slice (cell_depth_extents()).
+void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
+                 std::span<const FroxelGrid::DepthRange> cell_depths, uint32_t* first_nodes,
+                 ForestChunk& chunk);
+}  // namespace simd
+
+// Lights in a leaf of a tree over `lights` lights: as asked, or as many as the largest tree needs, in eights.
+inline uint32_t leaf_size(uint32_t asked, uint32_t lights) {
+  if (lights <= asked * ML_TREE_MAX_LEAVES) return asked;
+  return (lights + 8 * ML_TREE_MAX_LEAVES - 1) / (8 * ML_TREE_MAX_LEAVES) * 8;
+}
+
+// Place of a node in a full binary tree of 2^height leaves stored depth first: node `index` of level `level`
+// (the root is level 0). Before it stand its ancestors and the whole subtrees to their left: for every set
+// bit of the index one of 2^(height - level + bit + 1) - 1 nodes. Always inlined, for the instructions of the
+// caller's target.
+[[gnu::always_inline]] inline uint32_t depth_first_place(uint32_t height, uint32_t level, uint32_t index) {
+  return level + (index << (height - level + 1)) - static_cast<uint32_t>(std::popcount(index));
+}
+
+// Depth extents (m) of a cell of each slice, as listing 2 takes them: from the near plane to the far depth,
+// whatever lies beyond in the last slice.
+void cell_depth_extents(const FroxelGrid& grid, std::vector<FroxelGrid::DepthRange>& extents);
+
+// Listing 2 sums in steps of 1/65536 of the cell's extent, so that the sum is the same in any order. Steps a
+// metre; 0 for a cell without extent.
+inline float extent_steps(FroxelGrid::DepthRange extent) {
+  return extent.high > extent.low ? 65536.0f / (extent.high - extent.low) : 0.0f;
+}
+// Whether the mean of `lights` extents, which sum up to `sum` steps, is below the threshold.
+inline bool is_tree(uint64_t sum, uint32_t lights, float threshold) {
+  return static_cast<double>(sum) < static_cast<double>(threshold) * 65536.0 * lights;
+}
+
+}  // namespace ml
