@@ -17,7 +17,7 @@ void cell_depth_extents(const FroxelGrid& grid, std::vector<FroxelGrid::DepthRan
 void Forest::build(const FroxelLists& lists, const ForestSettings& settings, Threads& threads) {
   const uint32_t cells = lists.grid().cells();
   cell_depth_extents(lists.grid(), cell_depths_);
-  first_nodes_.resize(cells + size_t{1});
+  cells_.resize(cells);
   // Chunks of about as many list entries each, so that threads have alike work.
   chunk_count_ = threads.count() == 1 ? 1 : std::clamp<size_t>(cells / 64, 1, size_t{threads.count()} * 8);
   if (chunks_.size() < chunk_count_) chunks_.resize(chunk_count_);
@@ -33,27 +33,34 @@ void Forest::build(const FroxelLists& lists, const ForestSettings& settings, Thr
     chunks_[c].end_cell = place(c + 1);
   }
   threads.for_each(chunk_count_, [&](size_t c) {
-    simd::build_chunk(lists, settings, cell_depths_, first_nodes_.data(), chunks_[c]);
+    simd::build_chunk(lists, settings, cell_depths_, cells_.data(), chunks_[c]);
   });
-  size_t before = 0;
-  list_cells_ = tree_cells_ = 0;
+  nodes_ = list_cells_ = tree_cells_ = 0;
   for (size_t c = 0; c < chunk_count_; ++c) {
-    const ForestChunk& chunk = chunks_[c];
-    if (before > 0)
-      for (uint32_t cell = chunk.first_cell; cell < chunk.end_cell; ++cell)
-        first_nodes_[cell] += static_cast<uint32_t>(before);
-    before += chunk.count;
+    ForestChunk& chunk = chunks_[c];
+    chunk.first_node = nodes_;
+    nodes_ += chunk.count;
     list_cells_ += chunk.list_cells;
     tree_cells_ += chunk.tree_cells;
   }
-  first_nodes_[cells] = static_cast<uint32_t>(before);
+  threads.for_each(chunk_count_, [&](size_t c) {
+    const ForestChunk& chunk = chunks_[c];
+    const auto before = static_cast<uint32_t>(chunk.first_node);
+    if (before == 0) return;
+    for (uint32_t cell = chunk.first_cell; cell < chunk.end_cell; ++cell) {
+      gpu_data::TreeCell& node = cells_[cell];
+      const uint32_t shift = node.end == 0 || (node.end & ML_TREE_CELL_LIST) != 0 ? 0 : before;
+      node.first += shift;
+      node.end += shift;
+    }
+  });
 }
 
 void Forest::copy_nodes(TreeNode* to, Threads& threads) const {
   threads.for_each(chunk_count_, [&](size_t c) {
     const ForestChunk& chunk = chunks_[c];
     if (chunk.count > 0)
-      std::memcpy(to + first_nodes_[chunk.first_cell], chunk.nodes.data(), chunk.count * sizeof(TreeNode));
+      std::memcpy(to + chunk.first_node, chunk.nodes.data(), chunk.count * sizeof(TreeNode));
   });
 }
 

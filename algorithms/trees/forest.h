@@ -12,19 +12,16 @@
 
 namespace ml {
 
-// One-node trees stand for lists (section 3.4); a list of more lights than a leaf holds is several such nodes
-// one after the other.
 class Forest {
  public:
   void build(const FroxelLists& lists, const ForestSettings& settings, Threads& threads);
 
-  // Where each cell's nodes begin, and one more: the end of the last.
-  std::span<const uint32_t> first_nodes() const { return first_nodes_; }
-  uint64_t nodes() const { return first_nodes_.empty() ? 0 : first_nodes_.back(); }
+  std::span<const gpu_data::TreeCell> cells() const { return cells_; }
+  uint64_t nodes() const { return nodes_; }
   // Writes all nodes; `to` has nodes() elements.
   void copy_nodes(gpu_data::TreeNode* to, Threads& threads) const;
 
-  // Cells with lights that are a list (one leaf) or a tree.
+  // Cells with lights that are a list or a tree.
   uint64_t list_cells() const { return list_cells_; }
   uint64_t tree_cells() const { return tree_cells_; }
 
@@ -32,7 +29,8 @@ class Forest {
   std::vector<ForestChunk> chunks_;
   size_t chunk_count_ = 0;
   std::vector<FroxelGrid::DepthRange> cell_depths_;
-  std::vector<uint32_t> first_nodes_;
+  std::vector<gpu_data::TreeCell> cells_;
+  uint64_t nodes_ = 0;
   uint64_t list_cells_ = 0, tree_cells_ = 0;
 };
 

@@ -18,6 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace ml::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+using gpu_data::TreeCell;
 using gpu_data::TreeNode;
 // No wider than a leaf of the usual eight lights.
 using Floats = hn::CappedTag<float, 8>;
@@ -196,8 +197,7 @@ HWY_INLINE size_t write_tree(ForestChunk& chunk, uint32_t lights, uint32_t first
 }
 
 void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
-                 std::span<const FroxelGrid::DepthRange> cell_depths, uint32_t* first_nodes,
-                 ForestChunk& chunk) {
+                 std::span<const FroxelGrid::DepthRange> cell_depths, TreeCell* cells, ForestChunk& chunk) {
   const uint32_t columns = lists.grid().columns, tiles = lists.grid().tiles();
   const uint32_t* offsets = lists.offsets().data();
   const uint32_t* entries = lists.entries().data();
@@ -211,36 +211,47 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
                    row_end = std::min(cell + columns - cell % columns, chunk.end_cell);
     const FroxelGrid::DepthRange extent = cell_depths[cell / tiles];
     const size_t row_lights = offsets[row_end] - row_first;
-    reserve_padded(chunk.reaches, row_lights);
-    collect(entries + row_first, row_lights, reach_of_light, chunk.reaches.data());
+    uint32_t longest = 0;
+    for (uint32_t c = cell; c < row_end; ++c) longest = std::max(longest, offsets[c + 1] - offsets[c]);
+    // No depth matters where all cells are short lists.
+    const uint32_t short_list = settings.lights_per_leaf;
+    if (longest > short_list || settings.list_nodes) {
+      reserve_padded(chunk.reaches, row_lights);
+      collect(entries + row_first, row_lights, reach_of_light, chunk.reaches.data());
+      // Room for full trees of twice the leaves, or the nodes of lists.
+      const size_t leaves = row_lights / short_list + columns;
+      reserve_padded(chunk.low, 2 * leaves);
+      reserve_padded(chunk.high, 2 * leaves);
+      reserve_padded(chunk.nodes, count + 4 * leaves);
+    }
     const DepthReach* reaches = chunk.reaches.data();
-    // Room for full trees of twice the leaves, or the nodes of lists.
-    const size_t leaves = row_lights / settings.lights_per_leaf + columns;
-    reserve_padded(chunk.low, 2 * leaves);
-    reserve_padded(chunk.high, 2 * leaves);
-    reserve_padded(chunk.nodes, count + 4 * leaves);
     for (; cell < row_end; ++cell) {
-      first_nodes[cell] = static_cast<uint32_t>(count);
       const uint32_t first = offsets[cell], lights = offsets[cell + 1] - first;
-      if (lights == 0) continue;
-      const DepthReach* reach = reaches + (first - row_first);
-      TreeNode* nodes = &chunk.nodes[count];
-      if (lights <= settings.lights_per_leaf) {
-        const DepthReach bounds = leaf_reach<false>(reach, lights, {}, 0, unused);
-        *nodes = {-bounds.minus_low, bounds.high, first, packed(true, lights, 1)};
-        ++count;
-        ++chunk.list_cells;
-        continue;
-      }
-      const uint32_t per_leaf = leaf_size(settings.lights_per_leaf, lights);
-      const uint64_t sum = bound_leaves(chunk, reach, lights, per_leaf, extent);
-      if (lights > per_leaf && is_tree(sum, lights, settings.threshold)) {
-        count += write_tree(chunk, lights, first, per_leaf, settings.trim_padding, nodes);
-        ++chunk.tree_cells;
+      TreeNode* nodes = chunk.nodes.data() + count;
+      size_t written = 0;
+      if (lights > short_list) {
+        const uint32_t per_leaf = leaf_size(short_list, lights);
+        const uint64_t sum = bound_leaves(chunk, reaches + (first - row_first), lights, per_leaf, extent);
+        const bool tree = lights > per_leaf && is_tree(sum, lights, settings.threshold);
+        if (tree)
+          written = write_tree(chunk, lights, first, per_leaf, settings.trim_padding, nodes);
+        else if (settings.list_nodes)
+          written = write_list(chunk, lights, first, per_leaf, nodes);
+        chunk.tree_cells += tree;
+        chunk.list_cells += !tree;
       } else {
-        count += write_list(chunk, lights, first, per_leaf, nodes);
-        ++chunk.list_cells;
+        chunk.list_cells += lights > 0;
+        if (settings.list_nodes && lights > 0) {
+          const DepthReach bounds = leaf_reach<false>(reaches + (first - row_first), lights, {}, 0, unused);
+          *nodes = {-bounds.minus_low, bounds.high, first, packed(true, lights, 1)};
+          written = 1;
+        }
       }
+      if (written > 0)
+        cells[cell] = {static_cast<uint32_t>(count), static_cast<uint32_t>(count + written)};
+      else
+        cells[cell] = lights > 0 ? TreeCell{first, ML_TREE_CELL_LIST | lights} : TreeCell{0, 0};
+      count += written;
     }
   }
   chunk.count = count;
@@ -255,9 +266,9 @@ namespace ml::simd {
 HWY_EXPORT(build_chunk);
 
 void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
-                 std::span<const FroxelGrid::DepthRange> cell_depths, uint32_t* first_nodes,
+                 std::span<const FroxelGrid::DepthRange> cell_depths, gpu_data::TreeCell* cells,
                  ForestChunk& chunk) {
-  HWY_DYNAMIC_DISPATCH(build_chunk)(lists, settings, cell_depths, first_nodes, chunk);
+  HWY_DYNAMIC_DISPATCH(build_chunk)(lists, settings, cell_depths, cells, chunk);
 }
 
 }  // namespace ml::simd

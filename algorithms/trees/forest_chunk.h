@@ -18,12 +18,16 @@ struct ForestSettings {
   float threshold = 1;
   // Leave out the nodes behind the last leaf that has lights: only padding.
   bool trim_padding = true;
+  // Lists are trees of one node, as in the paper (section 3.4), or several one after the other where a leaf
+  // cannot count them; else a list's place stands in its cell.
+  bool list_nodes = false;
 };
 
 struct ForestChunk {
   uint32_t first_cell = 0, end_cell = 0;
   std::vector<gpu_data::TreeNode> nodes;
-  size_t count = 0;  // of nodes in use
+  size_t count = 0;         // of nodes in use
+  uint64_t first_node = 0;  // of all nodes
   uint64_t list_cells = 0, tree_cells = 0;
   // Scratch: the depths of the lights in one row of froxels, and the bounds of one cell's tree level by
   // level.
@@ -32,10 +36,10 @@ struct ForestChunk {
 };
 
 namespace simd {
-// Builds the cells of the chunk; first_nodes[cell] becomes the place of the cell's first node in chunk.nodes.
+// Builds the cells of the chunk into cells[cell]; nodes are numbered by their place in chunk.nodes.
 // `cell_depths`: of each slice (cell_depth_extents()).
 void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
-                 std::span<const FroxelGrid::DepthRange> cell_depths, uint32_t* first_nodes,
+                 std::span<const FroxelGrid::DepthRange> cell_depths, gpu_data::TreeCell* cells,
                  ForestChunk& chunk);
 }  // namespace simd
 

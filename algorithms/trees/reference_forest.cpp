@@ -73,13 +73,17 @@ void ReferenceForest::build_tree(const ReferenceLists& lists, uint32_t cell, uin
 void ReferenceForest::build(const ReferenceLists& lists, const ForestSettings& settings) {
   cell_depth_extents(lists.grid(), cell_depths_);
   const uint32_t cells = lists.grid().cells();
-  first_nodes_.assign(1, 0);
+  cells_.assign(cells, {0, 0});
   nodes_.clear();
   for (uint32_t cell = 0; cell < cells; ++cell) {
     const uint32_t begin = lists.offsets()[cell], count = lists.offsets()[cell + 1] - begin;
     const uint32_t per_leaf = leaf_size(settings.lights_per_leaf, count);
+    const auto first_node = static_cast<uint32_t>(nodes_.size());
     if (count > per_leaf && wants_tree(lists, cell, settings.threshold)) {
       build_tree(lists, cell, per_leaf, settings.trim_padding);
+    } else if (!settings.list_nodes) {
+      if (count > 0) cells_[cell] = {begin, ML_TREE_CELL_LIST | count};
+      continue;
     } else {
       // Where one leaf cannot count a list's lights, each part is as many of its leaves as one can.
       const uint32_t most = ML_TREE_MAX_LEAF_LIGHTS / per_leaf * per_leaf;
@@ -93,7 +97,7 @@ void ReferenceForest::build(const ReferenceLists& lists, const ForestSettings& s
         append(node);
       }
     }
-    first_nodes_.push_back(static_cast<uint32_t>(nodes_.size()));
+    if (count > 0) cells_[cell] = {first_node, static_cast<uint32_t>(nodes_.size())};
   }
   lights_.resize(lists.entries().size());
   for (size_t i = 0; i < lights_.size(); ++i) lights_[i] = lists.light_of_rank()[lists.entries()[i]];

@@ -16,7 +16,7 @@ class ReferenceForest {
  public:
   void build(const ReferenceLists& lists, const ForestSettings& settings);
 
-  const std::vector<uint32_t>& first_nodes() const { return first_nodes_; }
+  const std::vector<gpu_data::TreeCell>& cells() const { return cells_; }
   const std::vector<gpu_data::TreeNode>& nodes() const { return nodes_; }
   // Light indices of all lists, as the GPU has them.
   const std::vector<uint32_t>& lights() const { return lights_; }
@@ -35,7 +35,8 @@ class ReferenceForest {
   std::vector<std::vector<uint32_t>>
       tables_;              // [height]: place in breadth-first order of each depth-first node
   std::vector<Node> tree_;  // breadth first
-  std::vector<uint32_t> first_nodes_, lights_;
+  std::vector<gpu_data::TreeCell> cells_;
+  std::vector<uint32_t> lights_;
   std::vector<gpu_data::TreeNode> nodes_;
 };
 

@@ -10,7 +10,7 @@
 namespace ml {
 namespace {
 
-enum Slot : uint32_t { grid_slot, first_nodes_slot, nodes_slot, indices_slot };
+enum Slot : uint32_t { grid_slot, cells_slot, nodes_slot, indices_slot };
 
 // As the walk reads it.
 struct GridHeader {
@@ -43,9 +43,8 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
   const FroxelGrid& grid = lists_.grid();
   const GridHeader header{grid.mapping, grid.tile, grid.columns, grid.tiles()};
   std::memcpy(memory.map(grid_slot, sizeof header).data(), &header, sizeof header);
-  const auto first_nodes = forest_.first_nodes();
-  std::memcpy(memory.map(first_nodes_slot, first_nodes.size_bytes()).data(), first_nodes.data(),
-              first_nodes.size_bytes());
+  const auto cells = forest_.cells();
+  std::memcpy(memory.map(cells_slot, cells.size_bytes()).data(), cells.data(), cells.size_bytes());
   forest_.copy_nodes(reinterpret_cast<gpu_data::TreeNode*>(memory.map(nodes_slot, node_bytes).data()),
                      *frame.threads);
   const auto entries = lists_.entries();
@@ -53,7 +52,7 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
   if (!entries.empty()) std::memcpy(indices.data(), entries.data(), entries.size_bytes());
 
   counters_.in_frustum = lists_.lights_in_frustum();
-  counters_.list_bytes = first_nodes.size_bytes() + node_bytes + entries.size_bytes();
+  counters_.list_bytes = cells.size_bytes() + node_bytes + entries.size_bytes();
   counters_.list_cells = forest_.list_cells();
   counters_.tree_cells = forest_.tree_cells();
 }
@@ -62,6 +61,8 @@ std::vector<ParameterInfo> tree_parameters() {
   return {
       ParameterInfo::integer("lights_per_leaf", 8, 1, 64,
                              "lights in a leaf; raised where a tree would have more than 2048 leaves"),
+      ParameterInfo::choice("lists", "cell", {"cell", "node"},
+                            "a list's place stands in its cell, or in a tree of one node (section 3.4)"),
       ParameterInfo::boolean("trim_padding", true, "leave out the nodes behind a tree's last light"),
   };
 }
@@ -69,6 +70,7 @@ std::vector<ParameterInfo> tree_parameters() {
 ForestSettings tree_settings(const Parameters& parameters) {
   ForestSettings settings;
   settings.lights_per_leaf = static_cast<uint32_t>(parameters.integer("lights_per_leaf"));
+  settings.list_nodes = parameters.choice("lists") == "node";
   settings.trim_padding = parameters.boolean("trim_padding");
   return settings;
 }

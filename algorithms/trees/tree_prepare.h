@@ -15,7 +15,7 @@ class TreePrepare {
   void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans);
   const PrepareCounters& counters() const { return counters_; }
   // The upload slots, as tree_walk.glsl names them.
-  static std::vector<std::string> buffers() { return {"Grid", "FirstNodes", "TreeNodes", "Indices"}; }
+  static std::vector<std::string> buffers() { return {"Grid", "TreeCells", "TreeNodes", "Indices"}; }
 
   const FroxelLists& lists() const { return lists_; }
   const Forest& forest() const { return forest_; }

@@ -9,7 +9,7 @@ layout(scalar, binding = 16) readonly buffer Grid {
   SliceMapping slice_mapping;
   uint tile_size, tile_columns, tile_count;
 };
-layout(scalar, binding = 17) readonly buffer FirstNodes { uint first_nodes[]; };
+layout(scalar, binding = 17) readonly buffer TreeCells { TreeCell tree_cells[]; };
 layout(scalar, binding = 18) readonly buffer TreeNodes { TreeNode tree_nodes[]; };
 layout(scalar, binding = 19) readonly buffer Indices { uint tree_lights[]; };
 
@@ -26,15 +26,20 @@ struct LightCursor {
 
 // `counted`: the pixel itself walks the tree, and does not only help.
 LightCursor cell_begin(uint cell, float depth, bool counted) {
-  LightCursor cursor = LightCursor(first_nodes[cell], first_nodes[cell + 1u], 0u, 0u, depth, TreeNode(0.0, 0.0, 0u, 0u), no_node);
+  const TreeCell place = tree_cells[cell];
+  const bool list = (place.end & ML_TREE_CELL_LIST) != 0u;
+  // A list is at once what a tree's walk finds in a leaf.
+  const uint node = list ? 0u : place.first, end = list ? 0u : place.end;
+  const uint next = list ? place.first : 0u, last = list ? place.first + (place.end & ~ML_TREE_CELL_LIST) : 0u;
+  LightCursor cursor = LightCursor(node, end, next, last, depth, TreeNode(0.0, 0.0, 0u, 0u), no_node);
 #ifdef COUNTING
   if (counted) {
     // Nodes that stand side by side: one tree, or the leaves of one list.
-    uint listed = 0u;
+    uint listed = last - next;
     bool tree = false;
-    for (uint node = cursor.node; node < cursor.end; node += tree_skip(tree_nodes[node])) {
-      tree = !tree_is_leaf(tree_nodes[node]);
-      listed += tree ? tree_nodes[node].first_or_below : tree_leaf_lights(tree_nodes[node]);
+    for (uint n = node; n < end; n += tree_skip(tree_nodes[n])) {
+      tree = !tree_is_leaf(tree_nodes[n]);
+      listed += tree ? tree_nodes[n].first_or_below : tree_leaf_lights(tree_nodes[n]);
     }
     COUNT_LISTED(listed);
     COUNT_TRAVERSAL(tree ? 1u : 0u);
@@ -75,8 +80,11 @@ void tree_fetch(inout LightCursor cursor) {
 }
 
 bool light_next_run(inout LightCursor cursor, bool here, out uint first, out uint count, out bool wanted) {
-  first = count = 0u;
-  wanted = false;
+  first = cursor.next;
+  count = cursor.last - cursor.next;
+  wanted = here;
+  cursor.next = cursor.last;
+  if (count != 0u) return true;  // a list
   while (cursor.node < cursor.end) {
     if (cursor.node - cursor.fetched_first >= gl_SubgroupSize) tree_fetch(cursor);
     const uint lane = cursor.node - cursor.fetched_first;

@@ -28,6 +28,7 @@ ForestSettings random_forest(Random& random) {
   constexpr float thresholds[] = {0, 0.25f, 0.5f, 1, infinity};
   settings.threshold = thresholds[random.below(5)];
   settings.trim_padding = random.below(2) != 0;
+  settings.list_nodes = random.below(2) != 0;
   return settings;
 }
 
@@ -46,7 +47,12 @@ struct Trees {
   // Listing 3: the lights that a pixel of this cell and depth gets to see, in order.
   std::vector<uint32_t> walk(uint32_t cell, float depth) const {
     std::vector<uint32_t> lights;
-    for (uint32_t i = forest.first_nodes()[cell]; i < forest.first_nodes()[cell + 1];) {
+    const gpu_data::TreeCell place = forest.cells()[cell];
+    if (place.end & ML_TREE_CELL_LIST) {
+      const auto list = lists.entries().subspan(place.first, place.end & ~ML_TREE_CELL_LIST);
+      return {list.begin(), list.end()};
+    }
+    for (uint32_t i = place.first; i < place.end;) {
       const TreeNode& node = nodes[i];
       const bool hit = node.low <= depth && depth <= node.high;
       if (hit && tree_is_leaf(node))
@@ -104,7 +110,10 @@ TEST(Forest, FastPathGivesTheReferencesBits) {
     lists.build(fixture.frame, froxels);
     reference.build(lists, settings);
     ASSERT_TRUE(std::ranges::equal(trees.lists.entries(), reference.lights())) << "seed " << seed;
-    ASSERT_TRUE(std::ranges::equal(trees.forest.first_nodes(), reference.first_nodes())) << "seed " << seed;
+    ASSERT_TRUE(
+        std::ranges::equal(trees.forest.cells(), reference.cells(),
+                           [](const auto& a, const auto& b) { return a.first == b.first && a.end == b.end; }))
+        << "seed " << seed;
     ASSERT_EQ(trees.nodes.size(), reference.nodes().size()) << "seed " << seed;
     for (size_t i = 0; i < trees.nodes.size(); ++i) {
       const TreeNode &fast = trees.nodes[i], &plain = reference.nodes()[i];
@@ -137,27 +146,31 @@ TEST(Forest, OneTileHoldsAsManyLightsAsAFrameHas) {
       lights[i].position = {0.1, 0.1, -3 - 20.0 * i / count}, lights[i].radius = 0.4f;
     BinningFrame fixture(lights, camera, 64, 64);
     for (float threshold : {0.0f, 1.0f, infinity})
-      for (uint32_t per_leaf : {1u, 8u, 64u}) {
-        FroxelSettings froxels;
-        froxels.tile = 64;
-        froxels.slices = 1;
-        ForestSettings settings;
-        settings.threshold = threshold;
-        settings.lights_per_leaf = per_leaf;
-        Trees trees(fixture.frame, froxels, settings);
-        uint64_t below = 0;
-        for (const TreeNode& node : trees.nodes)
-          if (tree_is_leaf(node)) below += tree_leaf_lights(node);
-        EXPECT_EQ(below, count);
-        // Any one light is found at its own depth, and from a tree few others.
-        const uint32_t light = count / 2;
-        const float depth = static_cast<float>(3 + 20.0 * light / count);
-        std::vector<uint32_t> reached = trees.walk(0, depth);
-        EXPECT_TRUE(std::ranges::find(reached, light) != reached.end()) << count << " " << threshold;
-        if (threshold == infinity && count > 1000) {
-          EXPECT_LT(reached.size(), count / 10);
+      for (uint32_t per_leaf : {1u, 8u, 64u})
+        for (bool list_nodes : {false, true}) {
+          FroxelSettings froxels;
+          froxels.tile = 64;
+          froxels.slices = 1;
+          ForestSettings settings;
+          settings.threshold = threshold;
+          settings.lights_per_leaf = per_leaf;
+          settings.list_nodes = list_nodes;
+          Trees trees(fixture.frame, froxels, settings);
+          uint64_t below = 0;
+          for (const TreeNode& node : trees.nodes)
+            if (tree_is_leaf(node)) below += tree_leaf_lights(node);
+          for (const gpu_data::TreeCell& cell : trees.forest.cells())
+            if (cell.end & ML_TREE_CELL_LIST) below += cell.end & ~ML_TREE_CELL_LIST;
+          EXPECT_EQ(below, count);
+          // Any one light is found at its own depth, and from a tree few others.
+          const uint32_t light = count / 2;
+          const float depth = static_cast<float>(3 + 20.0 * light / count);
+          std::vector<uint32_t> reached = trees.walk(0, depth);
+          EXPECT_TRUE(std::ranges::find(reached, light) != reached.end()) << count << " " << threshold;
+          if (threshold == infinity && count > 1000) {
+            EXPECT_LT(reached.size(), count / 10);
+          }
         }
-      }
   }
 }
 
