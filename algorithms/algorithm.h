@@ -40,8 +40,9 @@ struct AlgorithmInfo {
       0;  // more lights than this are a configuration error; 0: no limit of its own (24-bit ids)
   bool needs_contributing_lists = false;  // `ideal`: wants the per-pixel lists of contributing lights
   bool reference_only = false;            // too slow for ordinary runs: left out of "all"
-  std::vector<std::string> cpu_stages, gpu_stages;  // span names it writes, in order
-  std::vector<std::string> shapes;                  // light shapes it bounds
+  // Span names it writes, in order.
+  std::vector<std::string> cpu_stages, gpu_stages{"shade"};
+  std::vector<std::string> shapes{"omni", "spot", "capsule", "wedge", "box"};  // light shapes it bounds
 };
 
 // The lights of one frame, camera-relative (world axes), rounded to float once and the same for CPU and GPU.

@@ -36,8 +36,6 @@ AlgorithmEntry brute_force_entry() {
   entry.info.reference_only = true;
   // The software driver ends a shader's loops after 65,535 turns; the shading loop takes four lights a turn.
   entry.info.max_lights = 262140;
-  entry.info.gpu_stages = {"shade"};
-  entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
   entry.parameters = {
       ParameterInfo::choice("precision", "fp32", {"fp32", "fp64"},
                             "number type of the shading sums; fp64 needs a device with 64-bit floats")};

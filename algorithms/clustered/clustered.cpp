@@ -74,8 +74,6 @@ AlgorithmEntry clustered_entry() {
   entry.info.summary = "froxel lists, binned on the CPU";
   entry.info.paper = "Persson, Practical Clustered Shading, SIGGRAPH 2013";
   entry.info.cpu_stages = {"cull", "bin", "upload"};
-  entry.info.gpu_stages = {"shade"};
-  entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
   entry.parameters = froxel_parameters();
   entry.parameters.push_back(ParameterInfo::choice(
       "light_data", "indexed", {"indexed", "duplicated"},

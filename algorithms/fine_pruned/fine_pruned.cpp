@@ -82,7 +82,6 @@ AlgorithmEntry fine_pruned_entry() {
   entry.info.paper = "Mikkelsen, Fine Pruned Tiled Light Lists, GPU Pro 7, 2016";
   entry.info.cpu_stages = {"cull", "sort", "upload"};
   entry.info.gpu_stages = {"bounds", "coarse", "lists", "shade"};
-  entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
   entry.parameters = {
       ParameterInfo::choice("prune", "fine", {"fine", "coarse"},
                             "lists by true volumes against pixels, or by screen bounds alone (section 2.4)"),

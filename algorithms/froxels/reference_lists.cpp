@@ -76,13 +76,20 @@ void ReferenceLists::tighten_shapes(const FrameLights& all, const BoundsConstant
   }
 }
 
-void ReferenceLists::build(const FrameInput& frame, const FroxelSettings& settings) {
+void ReferenceLists::build(const FrameInput& frame, const FroxelSettings& settings, Spans& spans) {
   grid_ = FroxelGrid::make(frame.view, settings.tile, settings.slices, settings.zmin, settings.zmax);
   const BoundsConstants constants(frame.view, grid_);
-  visible_.reserve(frame.lights.count());
-  visible_.count = scalar::cull(frame.lights, 0, frame.lights.count(), constants, visible_);
+  {
+    auto span = spans.span("cull");
+    visible_.reserve(frame.lights.count());
+    visible_.count = scalar::cull(frame.lights, 0, frame.lights.count(), constants, visible_);
+  }
   const bool by_depth = settings.order == FroxelSettings::Order::depth;
-  if (by_depth) sort_by_depth(DepthKey(frame.view));
+  if (by_depth) {
+    auto span = spans.span("sort");
+    sort_by_depth(DepthKey(frame.view));
+  }
+  auto span = spans.span("bin");
   const VisibleLights& lights = by_depth ? sorted_ : visible_;
   boxes_.resize(lights.count);
   for (size_t i = 0; i < lights.count; ++i)

@@ -10,7 +10,12 @@ class ReferenceLists {
  public:
   // For each light in view its box of froxels; a first walk over the boxes counts, a second scatters. Ordered
   // by depth, a radix sort of the lights comes first. No refinement.
-  void build(const FrameInput& frame, const FroxelSettings& settings);
+  // Spans cull, sort (order by depth) and bin.
+  void build(const FrameInput& frame, const FroxelSettings& settings, Spans& spans);
+  void build(const FrameInput& frame, const FroxelSettings& settings) {
+    Spans unread;
+    build(frame, settings, unread);
+  }
 
   const FroxelGrid& grid() const { return grid_; }
   const std::vector<uint32_t>& offsets() const { return offsets_; }  // one more than froxels

@@ -1,7 +1,7 @@
 #include "algorithms/hybrid/hybrid.h"
 
 #include "algorithms/froxels/froxel_parameters.h"
-#include "algorithms/trees/tree_prepare.h"
+#include "algorithms/trees/tree_algorithm.h"
 #include "spirv/hybrid_shade.h"
 #include "spirv/hybrid_shade_counting.h"
 
@@ -14,40 +14,24 @@ ForestSettings forest_settings(const Parameters& p) {
   return settings;
 }
 
-class Hybrid final : public Algorithm {
+class Hybrid final : public TreeAlgorithm {
  public:
   explicit Hybrid(const Parameters& p)
-      : trees_("hybrid", froxel_settings(p), forest_settings(p)),
-        together_(walk_together(p)),
+      : TreeAlgorithm("hybrid", froxel_settings(p), forest_settings(p), walk_together(p)),
         list_case_(p.boolean("list_case")),
         shared_tree_(p.boolean("shared_tree")) {}
-
-  void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override {
-    trees_.prepare(frame, memory, spans);
-  }
-  PrepareCounters counters() const override { return trees_.counters(); }
-  std::vector<std::string> buffers() const override { return TreePrepare::buffers(); }
-  bool walks_together() const override { return together_; }
   ShadeShaders shade_shaders() const override { return {hybrid_shade, hybrid_shade_counting}; }
   std::vector<uint32_t> shade_constants() const override { return {list_case_, shared_tree_}; }
 
  private:
-  TreePrepare trees_;
-  bool together_, list_case_, shared_tree_;
+  bool list_case_, shared_tree_;
 };
 
 }  // namespace
 
 AlgorithmEntry hybrid_entry() {
-  AlgorithmEntry entry;
-  entry.info.name = "hybrid";
-  entry.info.summary = "froxels that hold a list or a tree, built on the CPU";
-  entry.info.paper = "O'Donnell & Chajdas, Tiled Light Trees, I3D 2017";
-  entry.info.cpu_stages = {"cull", "sort", "bin", "build", "upload"};
-  entry.info.gpu_stages = {"shade"};
-  entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
-  entry.parameters = froxel_parameters();
-  for (ParameterInfo& info : tree_parameters()) entry.parameters.push_back(std::move(info));
+  AlgorithmEntry entry =
+      tree_entry("hybrid", "froxels that hold a list or a tree, built on the CPU", froxel_parameters());
   entry.parameters.push_back(ParameterInfo::real(
       "threshold", 1, 0, 1e6,
       "a froxel is a tree when its lights' clipped depth extents are on average below this part of its own "

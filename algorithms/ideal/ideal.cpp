@@ -28,8 +28,6 @@ AlgorithmEntry ideal_entry() {
   entry.info.name = "ideal";
   entry.info.summary = "per pixel exactly the lights that contribute, found beforehand: the lower bound";
   entry.info.needs_contributing_lists = true;
-  entry.info.gpu_stages = {"shade"};
-  entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
   entry.create = [](const Parameters&) { return std::make_unique<Ideal>(); };
   return entry;
 }

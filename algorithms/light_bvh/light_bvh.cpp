@@ -103,8 +103,6 @@ AlgorithmEntry light_bvh_entry() {
   entry.info.summary = "one tree of spheres over all lights, walked by every pixel";
   entry.info.paper = "Mamacos, Simple Alternative to Clustered Shading for Thousands of Lights (blog post)";
   entry.info.cpu_stages = {"cull", "build", "upload"};
-  entry.info.gpu_stages = {"shade"};
-  entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
   entry.parameters = {
       ParameterInfo::integer("branching", 8, 2, 8, "most children of a node"),
       ParameterInfo::choice(

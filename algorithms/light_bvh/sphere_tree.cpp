@@ -99,11 +99,19 @@ uint32_t SphereTree::build_range(const FrameLights& lights, uint32_t begin, uint
     }
   }
   uint32_t middle = begin + (end - begin) / 2;
-  if (best_axis >= 0)
-    middle = static_cast<uint32_t>(
-        std::stable_partition(items_.begin() + begin, items_.begin() + end,
-                              [&](uint32_t light) { return bin_of(light, best_axis) < best_split; }) -
-        items_.begin());
+  if (best_axis >= 0) {
+    // In order on both sides. std::stable_partition would take memory each time.
+    middle = begin;
+    right_items_.clear();
+    for (uint32_t i = begin; i < end; ++i) {
+      const uint32_t light = items_[i];
+      if (bin_of(light, best_axis) < best_split)
+        items_[middle++] = light;
+      else
+        right_items_.push_back(light);
+    }
+    std::ranges::copy(right_items_, items_.begin() + middle);
+  }
   const uint32_t left = build_range(lights, begin, middle, depth + 1);
   const uint32_t right = build_range(lights, middle, end, depth + 1);
   nodes_[node].children = 2;

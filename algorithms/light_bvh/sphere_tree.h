@@ -58,7 +58,7 @@ class SphereTree {
   uint32_t branching_;
   uint32_t root_ = none, lights_ = 0;
   std::vector<Node> nodes_;
-  std::vector<uint32_t> free_, leaf_of_light_, items_, order_, stack_;
+  std::vector<uint32_t> free_, leaf_of_light_, items_, right_items_, order_, stack_;
 };
 
 }  // namespace ml

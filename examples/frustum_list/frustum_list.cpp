@@ -69,8 +69,6 @@ AlgorithmEntry frustum_list_entry() {
   entry.info.name = "frustum_list";
   entry.info.summary = "one list for all pixels: the lights that reach into the view";
   entry.info.cpu_stages = {"cull", "upload"};
-  entry.info.gpu_stages = {"shade"};
-  entry.info.shapes = {"omni", "spot", "capsule", "wedge", "box"};
   entry.parameters = {ParameterInfo::boolean(
       "sides", true, "cull against the view's sides too; false: only what is behind the camera")};
   entry.create = [](const Parameters& parameters) { return std::make_unique<FrustumList>(parameters); };

@@ -10,16 +10,7 @@ namespace {
 constexpr unsigned kNoBottom = MeshBuilder::all & ~static_cast<unsigned>(MeshBuilder::bottom);
 
 ArenaMaterials add_materials(MeshBuilder& mesh) {
-  auto add = [&](const char* name, const glm::vec3& colour, float metallic, float roughness,
-                 bool double_sided = false) {
-    Material material;
-    material.name = name;
-    material.base_color = glm::vec4(colour, 1);
-    material.metallic = metallic;
-    material.roughness = roughness;
-    material.double_sided = double_sided;
-    return mesh.add_material(material);
-  };
+  const auto add = adder_of_materials(mesh);
   ArenaMaterials materials;
   materials.grass = add("grass", {0.23f, 0.34f, 0.13f}, 0, 0.95f);
   materials.earth = add("earth", {0.42f, 0.33f, 0.22f}, 0, 0.97f);
@@ -112,25 +103,16 @@ CameraPath make_room_path() {
 }
 
 Scene make_arena(uint32_t seed) {
-  constexpr float kFar = 150;
   MeshBuilder mesh;
   ArenaMaterials materials = add_materials(mesh);
   CameraPath path = make_arena_path();
-  std::vector<glm::dvec3> keep_clear;
-  constexpr uint32_t kSteps = 400;
-  for (uint32_t i = 0; i < kSteps; ++i)
-    keep_clear.emplace_back(path.sample(i, kSteps, 16, 9, 0.1f, kFar).position);
+  const std::vector<glm::dvec3> keep_clear = path.places(400);
   Random ground(hash_u32(seed, 51)), objects(hash_u32(seed, 52));
   build_arena_ground(mesh, materials, ground);
   build_arena_house(mesh, materials);
   build_arena_objects(mesh, materials, objects, keep_clear);
 
-  Scene scene = mesh.finish();
-  scene.name = "arena";
-  scene.light_defaults = kArenaLights;
-  scene.near = 0.1f;
-  scene.far = kFar;
-  scene.paths = {path, make_room_path()};
+  Scene scene = mesh.finish_level("arena", kArenaLights, 150, {path, make_room_path()});
   scene.rooms = {{glm::vec3(kRoomX - kRoomHalf, 0, kRoomZ - kRoomHalf),
                   glm::vec3(kRoomX + kRoomHalf, kRoomHeight, kRoomZ + kRoomHalf)}};
   return scene;

@@ -90,4 +90,12 @@ Camera CameraPath::sample(uint32_t frame, uint32_t frames, uint32_t width, uint3
                          window);
 }
 
+std::vector<glm::dvec3> CameraPath::places(uint32_t frames) const {
+  std::vector<glm::dvec3> places;
+  // The picture and its depth range move no camera.
+  for (uint32_t frame = 0; frame < frames; ++frame)
+    places.emplace_back(sample(frame, frames, 1, 1, 0.1f, 1).position);
+  return places;
+}
+
 }  // namespace ml

@@ -66,6 +66,8 @@ struct CameraPath {
   // picture of width x height pixels.
   Camera sample(uint32_t frame, uint32_t frames, uint32_t width, uint32_t height, float near,
                 float far) const;
+  // The camera's positions in `frames` frames.
+  std::vector<glm::dvec3> places(uint32_t frames) const;
 };
 
 }  // namespace ml

@@ -4,15 +4,6 @@
 namespace ml {
 namespace {
 
-Material make_material(const char* name, const glm::vec3& colour, float metallic, float roughness) {
-  Material material;
-  material.name = name;
-  material.base_color = glm::vec4(colour, 1);
-  material.metallic = metallic;
-  material.roughness = roughness;
-  return material;
-}
-
 CameraPath make_path(const CanyonGround& ground) {
   Fort west = canyon_fort(-1), east = canyon_fort(1);
   auto above = [&](double x, double z, double eye) { return glm::dvec3(x, ground.height(x, z) + eye, z); };
@@ -62,18 +53,16 @@ CameraPath make_path(const CanyonGround& ground) {
 Scene make_canyon(uint32_t seed) {
   MeshBuilder mesh;
   CanyonMaterials materials;
-  materials.rock = mesh.add_material(make_material("rock", {0.36f, 0.28f, 0.22f}, 0, 0.9f));
-  materials.sand = mesh.add_material(make_material("sand", {0.58f, 0.47f, 0.32f}, 0, 0.97f));
-  materials.concrete = mesh.add_material(make_material("concrete", {0.5f, 0.5f, 0.48f}, 0, 0.7f));
-  materials.metal = mesh.add_material(make_material("metal", {0.6f, 0.58f, 0.55f}, 1, 0.35f));
-  materials.wood = mesh.add_material(make_material("wood", {0.42f, 0.26f, 0.13f}, 0, 0.55f));
+  const auto add = adder_of_materials(mesh);
+  materials.rock = add("rock", {0.36f, 0.28f, 0.22f}, 0, 0.9f);
+  materials.sand = add("sand", {0.58f, 0.47f, 0.32f}, 0, 0.97f);
+  materials.concrete = add("concrete", {0.5f, 0.5f, 0.48f}, 0, 0.7f);
+  materials.metal = add("metal", {0.6f, 0.58f, 0.55f}, 1, 0.35f);
+  materials.wood = add("wood", {0.42f, 0.26f, 0.13f}, 0, 0.55f);
 
   CanyonGround ground(seed, canyon_footprints());
   CameraPath path = make_path(ground);
-  std::vector<glm::dvec3> keep_clear;
-  constexpr uint32_t kSteps = 400;
-  for (uint32_t i = 0; i < kSteps; ++i)
-    keep_clear.emplace_back(path.sample(i, kSteps, 16, 9, 0.1f, 220).position);
+  const std::vector<glm::dvec3> keep_clear = path.places(400);
 
   ground.build(mesh, materials);
   for (double side : {-1.0, 1.0}) build_fort(mesh, materials, canyon_fort(side));
@@ -81,13 +70,7 @@ Scene make_canyon(uint32_t seed) {
   build_bridge(mesh, materials);
   build_rocks(mesh, materials, ground, seed, keep_clear);
 
-  Scene scene = mesh.finish();
-  scene.name = "canyon";
-  scene.light_defaults = kCanyonLights;
-  scene.near = 0.1f;
-  scene.far = 220;
-  scene.paths = {path};
-  return scene;
+  return mesh.finish_level("canyon", kCanyonLights, 220, {path});
 }
 
 }  // namespace ml

@@ -5,14 +5,7 @@ namespace ml {
 namespace {
 
 CitadelMaterials add_materials(MeshBuilder& mesh) {
-  auto add = [&](const char* name, const glm::vec3& colour, float metallic, float roughness) {
-    Material material;
-    material.name = name;
-    material.base_color = glm::vec4(colour, 1);
-    material.metallic = metallic;
-    material.roughness = roughness;
-    return mesh.add_material(material);
-  };
+  const auto add = adder_of_materials(mesh);
   CitadelMaterials materials;
   materials.grass = add("grass", {0.2f, 0.3f, 0.1f}, 0, 0.95f);
   materials.earth = add("earth", {0.4f, 0.31f, 0.2f}, 0, 0.97f);
@@ -33,15 +26,11 @@ CitadelMaterials add_materials(MeshBuilder& mesh) {
 }  // namespace
 
 Scene make_citadel(uint32_t seed) {
-  constexpr float kFar = 900;
   MeshBuilder mesh;
   CitadelMaterials materials = add_materials(mesh);
   HeightField ground = make_citadel_ground(seed);
   CameraPath path = make_citadel_path(ground);
-  std::vector<glm::dvec3> keep_clear;
-  constexpr uint32_t kSteps = 400;
-  for (uint32_t i = 0; i < kSteps; ++i)
-    keep_clear.emplace_back(path.sample(i, kSteps, 16, 9, 0.1f, kFar).position);
+  const std::vector<glm::dvec3> keep_clear = path.places(400);
 
   build_ground(mesh, materials, ground);
   build_ring_wall(mesh, materials);
@@ -51,13 +40,7 @@ Scene make_citadel(uint32_t seed) {
   std::vector<glm::dvec2> farms = build_farms(mesh, materials, ground, fields, keep_clear);
   build_conifers(mesh, materials, ground, woods, keep_clear, farms);
 
-  Scene scene = mesh.finish();
-  scene.name = "citadel";
-  scene.light_defaults = kCitadelLights;
-  scene.near = 0.1f;
-  scene.far = kFar;
-  scene.paths = {path};
-  return scene;
+  return mesh.finish_level("citadel", kCitadelLights, 900, {path});
 }
 
 }  // namespace ml

@@ -6,16 +6,7 @@ namespace ml {
 namespace {
 
 GroveMaterials add_materials(MeshBuilder& mesh) {
-  auto add = [&](const char* name, const glm::vec3& colour, float metallic, float roughness,
-                 bool double_sided = false) {
-    Material material;
-    material.name = name;
-    material.base_color = glm::vec4(colour, 1);
-    material.metallic = metallic;
-    material.roughness = roughness;
-    material.double_sided = double_sided;
-    return mesh.add_material(material);
-  };
+  const auto add = adder_of_materials(mesh);
   GroveMaterials materials;
   materials.grass = add("grass", {0.18f, 0.27f, 0.09f}, 0, 0.95f);
   materials.earth = add("earth", {0.43f, 0.34f, 0.23f}, 0, 0.97f);
@@ -77,16 +68,12 @@ CameraPath make_grove_path(const HeightField& ground, const GroveWay& way) {
 }
 
 Scene make_grove(uint32_t seed) {
-  constexpr float kFar = 350;
   MeshBuilder mesh;
   GroveMaterials materials = add_materials(mesh);
   HeightField ground = make_grove_ground(seed);
   GroveWay way;
   CameraPath path = make_grove_path(ground, way);
-  std::vector<glm::dvec3> keep_clear;
-  constexpr uint32_t kSteps = 400;
-  for (uint32_t i = 0; i < kSteps; ++i)
-    keep_clear.emplace_back(path.sample(i, kSteps, 16, 9, 0.1f, kFar).position);
+  const std::vector<glm::dvec3> keep_clear = path.places(400);
 
   build_ground(mesh, materials, ground, way);
   build_fences(mesh, materials, ground, way);
@@ -94,13 +81,7 @@ Scene make_grove(uint32_t seed) {
   Random woods(hash_u32(seed, 21));
   build_trees(mesh, materials, ground, way, woods, keep_clear);
 
-  Scene scene = mesh.finish();
-  scene.name = "grove";
-  scene.light_defaults = kGroveLights;
-  scene.near = 0.1f;
-  scene.far = kFar;
-  scene.paths = {path};
-  return scene;
+  return mesh.finish_level("grove", kGroveLights, 350, {path});
 }
 
 }  // namespace ml

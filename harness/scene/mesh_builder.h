@@ -46,6 +46,9 @@ class MeshBuilder {
 
   // The scene of all that was built; the builder is empty afterwards.
   Scene finish();
+  // The same with what makes it a level, seen from 0.1 m to `far` m.
+  Scene finish_level(const std::string& name, const LightDefaults& lights, float far,
+                     std::vector<CameraPath> paths);
 
  private:
   struct Key {
@@ -61,5 +64,19 @@ class MeshBuilder {
   std::vector<Material> materials_;
   std::vector<std::vector<uint32_t>> indices_;  // by material
 };
+
+// A function that adds an opaque material without textures to `mesh` and returns its number.
+inline auto adder_of_materials(MeshBuilder& mesh) {
+  return [&mesh](const char* name, const glm::vec3& colour, float metallic, float roughness,
+                 bool double_sided = false) {
+    Material material;
+    material.name = name;
+    material.base_color = glm::vec4(colour, 1);
+    material.metallic = metallic;
+    material.roughness = roughness;
+    material.double_sided = double_sided;
+    return mesh.add_material(material);
+  };
+}
 
 }  // namespace ml

@@ -8,14 +8,7 @@ namespace ml {
 namespace {
 
 MuseumMaterials add_materials(MeshBuilder& mesh) {
-  auto add = [&](const char* name, const glm::vec3& colour, float metallic, float roughness) {
-    Material material;
-    material.name = name;
-    material.base_color = glm::vec4(colour, 1);
-    material.metallic = metallic;
-    material.roughness = roughness;
-    return mesh.add_material(material);
-  };
+  const auto add = adder_of_materials(mesh);
   MuseumMaterials materials;
   materials.marble = add("marble", {0.74f, 0.72f, 0.68f}, 0, 0.3f);
   materials.slate = add("slate", {0.2f, 0.2f, 0.22f}, 0, 0.35f);
@@ -88,12 +81,7 @@ Scene make_museum(uint32_t seed) {
   build_museum_columns(mesh, materials);
   build_museum_exhibits(mesh, materials, exhibits);
 
-  Scene scene = mesh.finish();
-  scene.name = "museum";
-  scene.light_defaults = kMuseumLights;
-  scene.near = 0.1f;
-  scene.far = 80;
-  scene.paths = {make_museum_path()};
+  Scene scene = mesh.finish_level("museum", kMuseumLights, 80, {make_museum_path()});
   for (int k = 0; k < kMuseumRoomsZ; ++k) {
     for (int i = 0; i < kMuseumRoomsX; ++i) {
       const double half = 0.5 * (kMuseumPitch - kMuseumWall);

@@ -12,11 +12,7 @@ Scene make_plane() {
   uint32_t material = mesh.add_material(paint);
   mesh.quad({-50, 0, -50}, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}, material);
 
-  Scene scene = mesh.finish();
-  scene.name = "plane";
-  scene.light_defaults = kPlaneLights;
-  scene.near = 0.1f;
-  scene.far = 200;
+  Scene scene = mesh.finish_level("plane", kPlaneLights, 200, {});
   CameraPath glide;
   glide.name = "default";
   glide.keys = {{0, {-20, 25, 20}, {-8, 0, 6}},

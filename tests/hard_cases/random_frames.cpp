@@ -1,5 +1,7 @@
 #include "tests/hard_cases/random_frames.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace ml::test {
@@ -49,6 +51,20 @@ std::vector<Light> random_lights(Random& random, const Camera& camera) {
                           std::max(1e-3f, glm::length(off) * random.uniform(0.9f, 1.1f))));
   }
   return lights;
+}
+
+void for_random_frames(uint32_t width, uint32_t height, uint32_t cases, uint32_t seed,
+                       const CheckFrame& check) {
+  uint64_t contributing = 0;
+  for (uint32_t number = 0; number < cases && !testing::Test::HasFailure(); ++number) {
+    SCOPED_TRACE(fmt::format("{}x{}, seed {}, case {}", width, height, seed, number));
+    Random random(hash_u32(seed, number));
+    const Camera camera = random_camera(random, width, height);
+    const std::vector<Light> lights = random_lights(random, camera);
+    contributing += check(random, camera, lights);
+  }
+  EXPECT_GT(contributing, uint64_t{cases} * width * height / 20)
+      << "the cases are too empty to mean anything";
 }
 
 }  // namespace ml::test

@@ -1,6 +1,8 @@
 // Frames drawn by lot: cameras of every kind and lights of every shape, also around the eye.
 #pragma once
 
+#include <functional>
+
 #include "harness/base/random.h"
 #include "tests/hard_cases/hard_cases.h"
 
@@ -12,5 +14,12 @@ float log_uniform(Random& random, float low, float high);
 Camera random_camera(Random& random, uint32_t width, uint32_t height);
 // 0 to some 400 lights.
 std::vector<Light> random_lights(Random& random, const Camera& camera);
+
+// `cases` such frames, each for `check`, which gives the number of lights that its pixels got in all; stops
+// at the first failure. Expects that the frames are full enough to mean anything.
+using CheckFrame =
+    std::function<uint64_t(Random& random, const Camera& camera, const std::vector<Light>& lights)>;
+void for_random_frames(uint32_t width, uint32_t height, uint32_t cases, uint32_t seed,
+                       const CheckFrame& check);
 
 }  // namespace ml::test

@@ -1,5 +1,9 @@
 #include "binning_cases.h"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
 namespace ml::test {
 
 Camera random_camera(Random& random) {
@@ -60,6 +64,33 @@ glm::dvec3 point_at(const gpu_data::ViewData& view, uint32_t x, uint32_t y, doub
   double scale = view.orthographic ? 1 : depth;
   return glm::dvec3(view.right) * (wx * scale) + glm::dvec3(view.up) * (wy * scale) +
          glm::dvec3(view.forward) * depth;
+}
+
+void expect_no_light_lost(Random& random, const FrameInput& frame, const FroxelGrid& grid, uint32_t samples,
+                          const LightsAt& lights_at) {
+  const gpu_data::ViewData& view = frame.view;
+  for (uint32_t sample = 0; sample < samples; ++sample) {
+    const uint32_t x = random.below(view.resolution.x), y = random.below(view.resolution.y);
+    const float depth = log_uniform(random, view.near, std::min(view.far, 1000.0f));
+    const glm::dvec3 point = point_at(view, x, y, static_cast<double>(depth));
+    const uint32_t cell =
+        grid.cell(x / grid.tile, y / grid.tile, gpu_data::slice_of_depth(depth, grid.mapping));
+    std::vector<uint32_t> found = lights_at(cell, depth);
+    std::ranges::sort(found);
+    ASSERT_TRUE(std::ranges::adjacent_find(found) == found.end()) << "a light twice in cell " << cell;
+    for (uint32_t light = 0; light < frame.lights.count(); ++light) {
+      const gpu_data::LightCore& core = frame.lights.core[light];
+      const bool inside = glm::distance(glm::dvec3(core.position), point) < static_cast<double>(core.radius);
+      ASSERT_TRUE(!inside || std::ranges::binary_search(found, light))
+          << "light " << light << ", pixel " << x << "," << y << ", depth " << depth;
+    }
+  }
+}
+
+std::vector<Light> random_small_lights(Random& random, uint32_t count, const Camera& camera) {
+  std::vector<Light> lights = random_lights(random, count, camera);
+  for (Light& light : lights) light.radius *= 0.05f;
+  return lights;
 }
 
 }  // namespace ml::test

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "algorithms/froxels/froxel_lists.h"
@@ -31,5 +32,14 @@ struct BinningFrame {
 
 // The point of the view at a pixel's centre and a depth, camera-relative, in double.
 glm::dvec3 point_at(const gpu_data::ViewData& view, uint32_t x, uint32_t y, double depth);
+
+// At `samples` random pixels and depths of a frame: expects that the lights of the pixel's cell at that
+// depth, in any order, are none of them there twice, and all there inside whose ball the point lies.
+using LightsAt = std::function<std::vector<uint32_t>(uint32_t cell, float depth)>;
+void expect_no_light_lost(Random& random, const FrameInput& frame, const FroxelGrid& grid, uint32_t samples,
+                          const LightsAt& lights_at);
+
+// random_lights() too small to fill whole lists: for tests with very many.
+std::vector<Light> random_small_lights(Random& random, uint32_t count, const Camera& camera);
 
 }  // namespace ml::test

@@ -46,6 +46,8 @@ TEST(LoadScene, ScenesAreTheSameOnEveryMachine) {
   EXPECT_EQ(hash_of(make_citadel(1)), 0xdf8c0912u);
   EXPECT_EQ(hash_of(make_grove(1)), 0x911edce2u);
   EXPECT_EQ(hash_of(make_plane()), 0xa2b6c66eu);
+  EXPECT_EQ(hash_of(make_museum(1)), 0x14b9dcb8u);
+  EXPECT_EQ(hash_of(make_arena(1)), 0x6db7c646u);
 }
 
 TEST(LoadScene, LightDefaultsAreKnownWithoutMakingTheScene) {
