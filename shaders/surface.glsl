@@ -65,12 +65,8 @@ vec3 position_from_depth(uvec2 pixel, float depth) {
   return position;
 }
 
-// False for the sky.
-bool surface_load(uvec2 pixel, out SurfacePoint point) {
-  float reversed = texelFetch(Depth, ivec2(pixel), 0).x;
+void surface_unpack(uvec2 pixel, float reversed, uvec2 word, out SurfacePoint point) {
   point.pixel = pixel;
-  if (!(reversed > 0.0)) return false;
-  uvec2 word = texelFetch(Surface, ivec2(pixel), 0).xy;
   point.depth = depth_from_reversed(reversed);
   point.position = position_from_depth(pixel, point.depth);
   point.normal = octahedral_decode(vec2(word.x & 0xfffu, word.x >> 12 & 0xfffu) / 4094.0 * 2.0 - 1.0);
@@ -79,6 +75,14 @@ bool surface_load(uvec2 pixel, out SurfacePoint point) {
   point.albedo = color * color;
   point.roughness = float(word.y >> 24) / 255.0;
   point.to_eye = view.orthographic != 0u ? -view.forward : -normalize(point.position);
+}
+
+// False for the sky.
+bool surface_load(uvec2 pixel, out SurfacePoint point) {
+  float reversed = texelFetch(Depth, ivec2(pixel), 0).x;
+  point.pixel = pixel;
+  if (!(reversed > 0.0)) return false;
+  surface_unpack(pixel, reversed, texelFetch(Surface, ivec2(pixel), 0).xy, point);
   return true;
 }
 #endif

@@ -2,6 +2,8 @@
 
 #include "algorithms/froxels/froxel_parameters.h"
 #include "algorithms/trees/tree_prepare.h"
+#include "spirv/hybrid_forward.h"
+#include "spirv/hybrid_forward_counting.h"
 #include "spirv/hybrid_shade.h"
 #include "spirv/hybrid_shade_counting.h"
 
@@ -28,7 +30,9 @@ class Hybrid final : public Algorithm {
   PrepareCounters counters() const override { return trees_.counters(); }
   std::vector<std::string> buffers() const override { return TreePrepare::buffers(); }
   bool walks_together() const override { return together_; }
-  ShadeShaders shade_shaders() const override { return {hybrid_shade, hybrid_shade_counting}; }
+  ShadeShaders shade_shaders() const override {
+    return {hybrid_shade, hybrid_shade_counting, hybrid_forward, hybrid_forward_counting};
+  }
   std::vector<uint32_t> shade_constants() const override { return {list_case_, shared_tree_}; }
 
  private:

@@ -4,6 +4,8 @@
 
 #include "algorithms/froxels/froxel_parameters.h"
 #include "algorithms/trees/tree_prepare.h"
+#include "spirv/light_tree_forward.h"
+#include "spirv/light_tree_forward_counting.h"
 #include "spirv/light_tree_shade.h"
 #include "spirv/light_tree_shade_counting.h"
 
@@ -34,7 +36,9 @@ class LightTree final : public Algorithm {
   PrepareCounters counters() const override { return trees_.counters(); }
   std::vector<std::string> buffers() const override { return TreePrepare::buffers(); }
   bool walks_together() const override { return together_; }
-  ShadeShaders shade_shaders() const override { return {light_tree_shade, light_tree_shade_counting}; }
+  ShadeShaders shade_shaders() const override {
+    return {light_tree_shade, light_tree_shade_counting, light_tree_forward, light_tree_forward_counting};
+  }
 
  private:
   TreePrepare trees_;

@@ -46,6 +46,7 @@ struct EffectsSpec {
   bool boxes = true;
   bool specular = true;
   bool alpha_mask = true;
+  bool forward = true;
 };
 
 struct AlgorithmSpec {

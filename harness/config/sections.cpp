@@ -224,6 +224,8 @@ std::span<const Field<EffectsSpec>> effects_fields() {
        [](const E& e) { return write_auto_off(e.specular); }},
       {"alpha_mask", [](const Node& n, E& e) { e.alpha_mask = read_auto_off(n); },
        [](const E& e) { return write_auto_off(e.alpha_mask); }},
+      {"forward", [](const Node& n, E& e) { e.forward = read_auto_off(n); },
+       [](const E& e) { return write_auto_off(e.forward); }},
   });
   return fields;
 }

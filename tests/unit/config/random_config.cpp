@@ -154,8 +154,9 @@ json random_config() {
     if (now()) config["outputs"]["heatmaps"] = json::array();
   }
   if (now())
-    config["effects"] = {{one_of({"spots", "capsules", "wedges", "boxes", "specular", "alpha_mask"}),
-                          one_of({"auto", "off"})}};
+    config["effects"] = {
+        {one_of({"spots", "capsules", "wedges", "boxes", "specular", "alpha_mask", "forward"}),
+         one_of({"auto", "off"})}};
   if (now()) {
     json sweep = json::object();
     if (now()) sweep["lights.count"] = values(integer(1, 4), true, [] { return light_value("count"); });
