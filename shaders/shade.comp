@@ -31,7 +31,10 @@ layout(scalar, binding = BIND_BLOCKS) readonly buffer Blocks { uvec2 blocks[]; }
 // Pixels that are lit forward are left out, and black until the forward pass has lit them.
 layout(constant_id = 8) const bool EFFECT_FORWARD = false;
 layout(rgba32f, binding = BIND_RESULT) writeonly uniform image2D Result;
+layout(rgba32f, binding = BIND_SPECULAR) writeonly uniform image2D Specular;
 #endif
+// The pass needs no albedo: Result gets the light that the albedo multiplies, Specular the rest, and composite.comp puts them together.
+layout(constant_id = 9) const bool SPLIT_TARGETS = false;
 
 #ifdef COUNTING
 layout(r32ui, binding = BIND_LISTED) uniform uimage2D Listed;
@@ -66,8 +69,17 @@ bool test_light(SurfacePoint point, LightCore data, out LightSample from) {
   return light_sample(point, data, from);
 }
 
+VEC3 sum_specular = VEC3(0);  // with SPLIT_TARGETS; the other half goes with the loop
+
 void add_light(SurfacePoint point, LightCore data, LightSample from, float weight, inout VEC3 sum) {
-  sum += light_shade(point, data, from) * REAL(weight);
+  if (SPLIT_TARGETS) {
+    VEC3 diffuse, specular;
+    light_shade_split(point, data, from, diffuse, specular);
+    sum += diffuse * REAL(weight);
+    sum_specular += specular * REAL(weight);
+  } else {
+    sum += light_shade(point, data, from) * REAL(weight);
+  }
 #ifdef COUNTING
   count_contributing += 1u;
   count_hash += light_hash(data.id_shape & ML_LIGHT_ID_MASK);
@@ -155,6 +167,7 @@ void main() {
     shade_alone(point, sum);
   if (!inside) return;
   imageStore(Result, ivec2(pixel), vec4(sum, 1.0));
+  if (SPLIT_TARGETS) imageStore(Specular, ivec2(pixel), vec4(sum_specular, 1.0));
 #ifdef COUNTING
   imageStore(Listed, ivec2(pixel), uvec4(count_listed));
   imageStore(Tested, ivec2(pixel), uvec4(count_tested));

@@ -37,6 +37,7 @@ std::vector<std::string> Effects::names() const {
   if (specular) list.emplace_back("specular");
   if (alpha_mask) list.emplace_back("alpha_mask");
   if (forward) list.emplace_back("forward");
+  if (split_targets) list.emplace_back("split_targets");
   if (long_lists) list.emplace_back("long_lists");
   return list;
 }
@@ -80,7 +81,7 @@ DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const Effects&
     : device_(device),
       effects_(effects),
       level_(device, scene, effects.alpha_mask, effects.forward),
-      targets_(device, width, height, effects.forward),
+      targets_(device, width, height, effects.forward, effects.split_targets),
       commands_(device),
       view_(device, sizeof(gpu_data::ViewData), gpu::MemoryKind::upload, "view"),
       lights_(device, "lights"),
@@ -114,6 +115,8 @@ gpu::Bindings DeviceFrame::bindings() const {
                      {"Result", targets_.result},
                      // Not read where nothing is lit forward.
                      {"Forward", targets_.forward ? *targets_.forward : targets_.surface},
+                     // Not written where there is one target.
+                     {"Specular", targets_.specular ? *targets_.specular : targets_.result},
                      {"ListOffsets", passes_->offsets},
                      {"ListIndices", *passes_->indices}};
   if (counters_)
@@ -126,8 +129,10 @@ gpu::Bindings DeviceFrame::bindings() const {
 }
 
 uint64_t DeviceFrame::target_bytes() const {
-  return targets_.depth.bytes() + targets_.surface.bytes() + targets_.result.bytes() +
-         (targets_.forward ? targets_.forward->bytes() : 0);
+  uint64_t sum = targets_.depth.bytes() + targets_.surface.bytes() + targets_.result.bytes();
+  for (const std::optional<gpu::Image>* image : {&targets_.forward, &targets_.diffuse, &targets_.specular})
+    if (*image) sum += (*image)->bytes();
+  return sum;
 }
 
 const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input, bool lists) {

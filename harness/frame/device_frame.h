@@ -22,6 +22,9 @@ struct Effects {
   bool specular = true;
   bool alpha_mask = false;
   bool forward = false;  // materials that are lit in a pass of their own
+  // The shading pass writes diffuse and specular light apart (shading.targets: split), not a property of the
+  // content.
+  bool split_targets = false;
   // Shading loops fit for lists of more than `most_turns` lights (shaders/light_eval.glsl says why); costs
   // compile time.
   bool long_lists = true;

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "harness/base/error.h"
+#include "spirv/composite_comp.h"
 
 namespace ml {
 namespace {
@@ -15,6 +16,7 @@ std::vector<gpu::Constant> constants_of(const gpu::Device& device, const Effects
   constants.push_back({2, sampled});
   constants.push_back({7, algorithm.walks_together() && device.limits().subgroup_exchange});
   constants.push_back({8, effects.forward && !sampled});
+  constants.push_back({9, effects.split_targets && !sampled});
   uint32_t id = 16;
   for (uint32_t value : algorithm.shade_constants()) constants.push_back({id++, value});
   return constants;
@@ -49,15 +51,19 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
   // Every buffer exists from the start, so that programs can bind what a frame left empty.
   for (gpu::UploadBuffer& buffer : buffers_) buffer.map(0);
   blocks_.map(0);
+  if (effects.split_targets) composite_.emplace(device, composite_comp, "composite");
   if (!effects.forward) return;
   if (!device.limits().fragment_stores)
     throw SystemError("forward materials: '" + device.info().name +
                       "' does not count in fragment shaders (fragmentStoresAndAtomics); "
                       "effects.forward=off lights them deferred");
   const ShadeShaders shaders = algorithm_->shade_shaders();
-  forward_timed_ = Level::forward_program(device, shaders.forward, entry.info.name + ": forward", constants_);
+  // Forward materials have their albedo at hand: their light goes to the result at once.
+  std::vector<gpu::Constant> constants = constants_;
+  std::erase_if(constants, [](const gpu::Constant& constant) { return constant.id == 9; });
+  forward_timed_ = Level::forward_program(device, shaders.forward, entry.info.name + ": forward", constants);
   forward_counting_ = Level::forward_program(device, shaders.forward_counting,
-                                             entry.info.name + ": forward, counting", constants_);
+                                             entry.info.name + ": forward, counting", constants);
 }
 
 std::span<std::byte> ShadedAlgorithm::map(uint32_t slot, size_t bytes) {
@@ -105,10 +111,22 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
     for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
   }
   const gpu::Bindings list = cull(commands, frame, input);
+  const uint32_t across = (input.view.resolution.x + 7) / 8, down = (input.view.resolution.y + 7) / 8;
+  const FrameTargets& targets = frame.targets();
   {
+    gpu::Bindings into = list;
+    if (targets.diffuse) {
+      std::erase_if(into, [](const gpu::Binding& b) { return b.name == "Result"; });
+      into.emplace_back("Result", *targets.diffuse);
+    }
     auto span = commands.span("shade");
-    commands.dispatch(program, list, std::span<const std::byte>{}, (input.view.resolution.x + 7) / 8,
-                      (input.view.resolution.y + 7) / 8);
+    commands.dispatch(program, into, std::span<const std::byte>{}, across, down);
+  }
+  if (composite_) {
+    auto span = commands.span("composite");
+    gpu::Bindings both = frame.bindings();
+    both.emplace_back("Diffuse", *targets.diffuse);
+    commands.dispatch(*composite_, both, std::span<const std::byte>{}, across, down);
   }
   if (!forward) return;
   auto span = commands.span("forward");

@@ -24,7 +24,8 @@ class ShadedAlgorithm final : private UploadMemory {
   // GPU, counting variant: fills the frame's counters too.
   void count(DeviceFrame& frame, const FrameInput& input);
   // The same for only the 8x8 blocks of the list, for sampled references: result and counters of other blocks
-  // keep what they held. All is lit deferred, so that the forward pass has a reference. At most 65,535 blocks
+  // keep what they held. All is lit deferred and into one target, a reference for the
+  // other ways. At most 65,535 blocks
   // (workgroups along one axis on the smallest devices).
   void count_blocks(DeviceFrame& frame, const FrameInput& input, std::span<const glm::uvec2> blocks);
 
@@ -53,6 +54,7 @@ class ShadedAlgorithm final : private UploadMemory {
   gpu::UploadBuffer blocks_;
   std::vector<gpu::Constant> constants_;
   gpu::ComputeProgram timed_, counting_;
+  std::optional<gpu::ComputeProgram> composite_;                        // with split targets
   std::optional<gpu::RasterProgram> forward_timed_, forward_counting_;  // with the effect
   std::unique_ptr<gpu::ComputeProgram> sampled_;                        // made when first asked for
 };

@@ -18,7 +18,7 @@ std::vector<double> samples(const SampleTable& table, const CaseResult& one, con
 }
 
 bool is_shading(const std::string& pass) {
-  return pass == "shade" || pass == "forward";
+  return pass == "shade" || pass == "composite" || pass == "forward";
 }
 
 // The device's passes of one kind together, in the same order of samples.
