@@ -97,10 +97,12 @@ struct PrepareCounters {
 // A SPIR-V module that the build put into the program.
 using Spirv = std::span<const uint32_t>;
 
-// The shading loop compiled with the algorithm's light cursor.
+// The shading loop compiled with the algorithm's light cursor (ml_shading_loop in CMakeLists.txt).
 struct ShadeShaders {
   Spirv timed;     // nothing but the picture
   Spirv counting;  // writes the counters too
+  // The same as fragment shaders of the forward pass.
+  Spirv forward, forward_counting;
 };
 
 class Algorithm {

@@ -16,5 +16,9 @@
 #define BIND_NODES 10
 #define BIND_HASH 11
 #define BIND_TRAVERSAL 12
+#define BIND_FORWARD 13
+#define BIND_BASE_COLOR 14
+#define BIND_SPECULAR 15
+#define BIND_DIFFUSE 16  // of a pass that has no algorithm in it
 
 #endif

@@ -10,6 +10,9 @@ layout(binding = 2) uniform sampler2D BaseColor;
 layout(location = 0) in vec3 in_normal;
 layout(location = 1) in vec2 in_uv;
 layout(location = 0) out uvec2 out_surface;
+#ifdef FORWARD
+layout(location = 1) out uint out_forward;  // number of the triangle, from 1, where it is lit forward; else 0
+#endif
 
 void main() {
   vec4 color = material.base_color * texture(BaseColor, in_uv);
@@ -19,4 +22,7 @@ void main() {
   vec3 normal = length_squared > 1e-20 ? in_normal * inversesqrt(length_squared) : vec3(0.0, 1.0, 0.0);
   if (!gl_FrontFacing && material.double_sided != 0u) normal = -normal;
   out_surface = surface_pack(normal, color.rgb, material.roughness, material.metallic);
+#ifdef FORWARD
+  out_forward = material.forward_triangle == 0u ? 0u : material.forward_triangle + uint(gl_PrimitiveID);
+#endif
 }

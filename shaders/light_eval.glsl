@@ -125,37 +125,66 @@ bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
   return true;
 }
 
+const float lambert = 0.31830988618379067;  // 1 / pi
+const float dielectric_f0 = 0.04;           // what a surface that is no metal mirrors straight on
+
+// GGX's distribution times visibility, and Schlick's weight of a full mirror; false where there is no highlight.
+bool highlight(SurfacePoint point, LightSample from, out REAL lobe, out REAL grazing) {
+  lobe = REAL(0);
+  grazing = REAL(0);
+  if (!EFFECT_SPECULAR) return false;
+  VEC3 normal = VEC3(point.normal), to_eye = VEC3(point.to_eye);
+  VEC3 between = from.direction + to_eye;
+  REAL length_squared = dot(between, between);
+  // Light straight behind the surface point as the eye sees it: there is no half vector and no highlight.
+  if (!(length_squared > REAL(1e-12))) return false;
+  VEC3 half_vector = between / sqrt(length_squared);
+  REAL n_v = clamp(abs(dot(normal, to_eye)), REAL(1e-4), REAL(1));
+  REAL n_h = clamp(dot(normal, half_vector), REAL(0), REAL(1));
+  REAL v_h = clamp(dot(to_eye, half_vector), REAL(0), REAL(1));
+  REAL roughness = max(REAL(point.roughness), REAL(min_roughness));
+  REAL a2 = roughness * roughness * roughness * roughness;
+  // 1 - n_h^2 as a cross product: the difference would lose all digits at the highlight of a smooth surface.
+  VEC3 aside = cross(normal, half_vector);
+  REAL spread = n_h * n_h * a2 + dot(aside, aside);
+  REAL distribution = a2 / max(REAL(3.14159265358979323846) * spread * spread, REAL(1e-30));
+  REAL visibility = REAL(0.5) / (from.cosine * sqrt(n_v * n_v * (REAL(1) - a2) + a2) +
+                                 n_v * sqrt(from.cosine * from.cosine * (REAL(1) - a2) + a2));
+  REAL away = REAL(1) - v_h;
+  REAL away2 = away * away;
+  lobe = distribution * visibility;
+  grazing = away2 * away2 * away;
+  return true;
+}
+
 // Light that leaves the point towards the eye, W/(sr m^2).
 VEC3 light_shade(SurfacePoint point, LightCore light, LightSample from) {
   VEC3 albedo = VEC3(point.albedo);
   REAL metallic = REAL(point.metallic);
-  VEC3 brdf = albedo * ((REAL(1) - metallic) * REAL(0.31830988618379067));
-  if (EFFECT_SPECULAR) {
-    VEC3 normal = VEC3(point.normal), to_eye = VEC3(point.to_eye);
-    VEC3 between = from.direction + to_eye;
-    REAL length_squared = dot(between, between);
-    // Light straight behind the surface point as the eye sees it: there is no half vector and no highlight.
-    if (length_squared > REAL(1e-12)) {
-      VEC3 half_vector = between / sqrt(length_squared);
-      REAL n_v = clamp(abs(dot(normal, to_eye)), REAL(1e-4), REAL(1));
-      REAL n_h = clamp(dot(normal, half_vector), REAL(0), REAL(1));
-      REAL v_h = clamp(dot(to_eye, half_vector), REAL(0), REAL(1));
-      REAL roughness = max(REAL(point.roughness), REAL(min_roughness));
-      REAL a2 = roughness * roughness * roughness * roughness;
-      // 1 - n_h^2 as a cross product: the difference would lose all digits at the highlight of a smooth surface.
-      VEC3 aside = cross(normal, half_vector);
-      REAL spread = n_h * n_h * a2 + dot(aside, aside);
-      REAL distribution = a2 / max(REAL(3.14159265358979323846) * spread * spread, REAL(1e-30));
-      REAL visibility = REAL(0.5) / (from.cosine * sqrt(n_v * n_v * (REAL(1) - a2) + a2) +
-                                     n_v * sqrt(from.cosine * from.cosine * (REAL(1) - a2) + a2));
-      REAL away = REAL(1) - v_h;
-      REAL away2 = away * away;
-      VEC3 f0 = mix(VEC3(0.04), albedo, metallic);
-      VEC3 fresnel = f0 + (VEC3(1) - f0) * (away2 * away2 * away);
-      brdf += fresnel * (distribution * visibility);
-    }
+  VEC3 brdf = albedo * ((REAL(1) - metallic) * REAL(lambert));
+  REAL lobe, grazing;
+  if (highlight(point, from, lobe, grazing)) {
+    VEC3 f0 = mix(VEC3(dielectric_f0), albedo, metallic);
+    VEC3 fresnel = f0 + (VEC3(1) - f0) * grazing;
+    brdf += fresnel * lobe;
   }
   return VEC3(light.intensity) * brdf * (from.strength * from.cosine);
+}
+
+// The same without the albedo: the light is albedo * diffuse + specular. Albedo enters light_shade to the first power only, by Lambert's term
+// and by the colour of metals in f0; `diffuse` is all that it multiplies, so a metal's coloured highlights too.
+void light_shade_split(SurfacePoint point, LightCore light, LightSample from, out VEC3 diffuse, out VEC3 specular) {
+  REAL metallic = REAL(point.metallic);
+  REAL coloured = (REAL(1) - metallic) * REAL(lambert), plain = REAL(0);
+  REAL lobe, grazing;
+  if (highlight(point, from, lobe, grazing)) {
+    REAL straight = (REAL(1) - grazing) * lobe;  // what f0 multiplies
+    coloured += metallic * straight;
+    plain = (REAL(1) - metallic) * REAL(dielectric_f0) * straight + grazing * lobe;
+  }
+  VEC3 arriving = VEC3(light.intensity) * (from.strength * from.cosine);
+  diffuse = arriving * coloured;
+  specular = arriving * plain;
 }
 
 // A well-mixed 32-bit hash of a light's index: sums of it tell which set of lights was reached.

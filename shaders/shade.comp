@@ -8,6 +8,7 @@
 //                        a cell together (shade_together below);
 //   CURSOR_CASES         with cursor_case(), light_next_in_list() and light_next_shared(): subgroups whose pixels have something in common
 //                        are walked in a loop of their own.
+// With FORWARD it is the fragment shader of the forward pass (shade_forward.glsl): the same loop, a pixel at a time.
 // It reports its work through COUNT_LISTED(n), COUNT_NODES(n), COUNT_TRAVERSAL(class), which are nothing in the timed variant.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -18,21 +19,30 @@
 #extension GL_KHR_shader_subgroup_shuffle : enable
 #include "shaders/light_eval.glsl"
 
+// Which pixels are lit forward (gbuffer.frag).
+layout(binding = BIND_FORWARD) uniform usampler2D Forward;
+#ifndef FORWARD
 // Pixels are walked in blocks of 8x8; with a list of blocks only those (the sampled reference), else the whole picture.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 2) const bool BLOCK_LIST = false;
 // The pixels of a subgroup walk lights together: needs votes, shuffles and arithmetic across the subgroup, and a cursor that can.
 layout(constant_id = 7) const bool WALK_TOGETHER = false;
 layout(scalar, binding = BIND_BLOCKS) readonly buffer Blocks { uvec2 blocks[]; };
+// Pixels that are lit forward are left out, and black until the forward pass has lit them.
+layout(constant_id = 8) const bool EFFECT_FORWARD = false;
 layout(rgba32f, binding = BIND_RESULT) writeonly uniform image2D Result;
+layout(rgba32f, binding = BIND_SPECULAR) writeonly uniform image2D Specular;
+#endif
+// The pass needs no albedo: Result gets the light that the albedo multiplies, Specular the rest, and composite.comp puts them together.
+layout(constant_id = 9) const bool SPLIT_TARGETS = false;
 
 #ifdef COUNTING
-layout(r32ui, binding = BIND_LISTED) writeonly uniform uimage2D Listed;
-layout(r32ui, binding = BIND_TESTED) writeonly uniform uimage2D Tested;
-layout(r32ui, binding = BIND_CONTRIBUTING) writeonly uniform uimage2D Contributing;
-layout(r32ui, binding = BIND_NODES) writeonly uniform uimage2D Nodes;
-layout(r32ui, binding = BIND_HASH) writeonly uniform uimage2D Hash;
-layout(r32ui, binding = BIND_TRAVERSAL) writeonly uniform uimage2D Traversal;
+layout(r32ui, binding = BIND_LISTED) uniform uimage2D Listed;
+layout(r32ui, binding = BIND_TESTED) uniform uimage2D Tested;
+layout(r32ui, binding = BIND_CONTRIBUTING) uniform uimage2D Contributing;
+layout(r32ui, binding = BIND_NODES) uniform uimage2D Nodes;
+layout(r32ui, binding = BIND_HASH) uniform uimage2D Hash;
+layout(r32ui, binding = BIND_TRAVERSAL) uniform uimage2D Traversal;
 uint count_listed = 0u, count_tested = 0u, count_contributing = 0u, count_nodes = 0u, count_hash = 0u, count_traversal = 0u;
 #define COUNT_LISTED(n) (count_listed += (n))
 #define COUNT_TESTED(n) (count_tested += (n))
@@ -59,15 +69,24 @@ bool test_light(SurfacePoint point, LightCore data, out LightSample from) {
   return light_sample(point, data, from);
 }
 
+VEC3 sum_specular = VEC3(0);  // with SPLIT_TARGETS; the other half goes with the loop
+
 void add_light(SurfacePoint point, LightCore data, LightSample from, float weight, inout VEC3 sum) {
-  sum += light_shade(point, data, from) * REAL(weight);
+  if (SPLIT_TARGETS) {
+    VEC3 diffuse, specular;
+    light_shade_split(point, data, from, diffuse, specular);
+    sum += diffuse * REAL(weight);
+    sum_specular += specular * REAL(weight);
+  } else {
+    sum += light_shade(point, data, from) * REAL(weight);
+  }
 #ifdef COUNTING
   count_contributing += 1u;
   count_hash += light_hash(data.id_shape & ML_LIGHT_ID_MASK);
 #endif
 }
 
-#ifdef CURSOR_RUNS
+#if defined(CURSOR_RUNS) && !defined(FORWARD)
 #include "shaders/shade_together.glsl"
 #endif
 
@@ -122,6 +141,13 @@ void shade_alone(SurfacePoint point, inout VEC3 sum) {
 #endif
 }
 
+#ifdef FORWARD
+#include "shaders/shade_forward.glsl"
+#else
+bool surface_to_light(uvec2 pixel, out SurfacePoint point) {
+  return surface_load(pixel, point) && (!EFFECT_FORWARD || texelFetch(Forward, ivec2(pixel), 0).x == 0u);
+}
+
 void main() {
   uvec2 block = BLOCK_LIST ? blocks[gl_WorkGroupID.x] : gl_WorkGroupID.xy;
   uvec2 pixel = block * 8u + gl_LocalInvocationID.xy;
@@ -130,17 +156,18 @@ void main() {
   SurfacePoint point;
 #ifdef CURSOR_RUNS
   if (WALK_TOGETHER) {
-    const bool lit = inside && surface_load(pixel, point);
+    const bool lit = inside && surface_to_light(pixel, point);
     // With long lists a subgroup that lies in several cells would take too many turns: its pixels walk alone.
     const bool together = !LONG_LISTS || in_one_cell(point, lit);
     shade_together(point, lit && together, sum);
     if (LONG_LISTS && lit && !together) shade_alone(point, sum);
   } else
 #endif
-      if (inside && surface_load(pixel, point))
+      if (inside && surface_to_light(pixel, point))
     shade_alone(point, sum);
   if (!inside) return;
   imageStore(Result, ivec2(pixel), vec4(sum, 1.0));
+  if (SPLIT_TARGETS) imageStore(Specular, ivec2(pixel), vec4(sum_specular, 1.0));
 #ifdef COUNTING
   imageStore(Listed, ivec2(pixel), uvec4(count_listed));
   imageStore(Tested, ivec2(pixel), uvec4(count_tested));
@@ -150,3 +177,4 @@ void main() {
   imageStore(Traversal, ivec2(pixel), uvec4(count_traversal));
 #endif
 }
+#endif

@@ -39,6 +39,11 @@ uvec2 surface_pack(vec3 normal, vec3 albedo, float roughness, float metallic) {
   return uvec2(octahedral.x | octahedral.y << 12 | metal << 24, color.r | color.g << 8 | color.b << 16 | rough << 24);
 }
 
+vec3 surface_albedo(uint y) {
+  vec3 color = vec3(y & 0xffu, y >> 8 & 0xffu, y >> 16 & 0xffu) / 255.0;
+  return color * color;
+}
+
 struct SurfacePoint {
   vec3 position;   // m, camera-relative, world axes
   vec3 normal;     // unit
@@ -65,20 +70,23 @@ vec3 position_from_depth(uvec2 pixel, float depth) {
   return position;
 }
 
+void surface_unpack(uvec2 pixel, float reversed, uvec2 word, out SurfacePoint point) {
+  point.pixel = pixel;
+  point.depth = depth_from_reversed(reversed);
+  point.position = position_from_depth(pixel, point.depth);
+  point.normal = octahedral_decode(vec2(word.x & 0xfffu, word.x >> 12 & 0xfffu) / 4094.0 * 2.0 - 1.0);
+  point.metallic = float(word.x >> 24) / 255.0;
+  point.albedo = surface_albedo(word.y);
+  point.roughness = float(word.y >> 24) / 255.0;
+  point.to_eye = view.orthographic != 0u ? -view.forward : -normalize(point.position);
+}
+
 // False for the sky.
 bool surface_load(uvec2 pixel, out SurfacePoint point) {
   float reversed = texelFetch(Depth, ivec2(pixel), 0).x;
   point.pixel = pixel;
   if (!(reversed > 0.0)) return false;
-  uvec2 word = texelFetch(Surface, ivec2(pixel), 0).xy;
-  point.depth = depth_from_reversed(reversed);
-  point.position = position_from_depth(pixel, point.depth);
-  point.normal = octahedral_decode(vec2(word.x & 0xfffu, word.x >> 12 & 0xfffu) / 4094.0 * 2.0 - 1.0);
-  point.metallic = float(word.x >> 24) / 255.0;
-  vec3 color = vec3(word.y & 0xffu, word.y >> 8 & 0xffu, word.y >> 16 & 0xffu) / 255.0;
-  point.albedo = color * color;
-  point.roughness = float(word.y >> 24) / 255.0;
-  point.to_eye = view.orthographic != 0u ? -view.forward : -normalize(point.position);
+  surface_unpack(pixel, reversed, texelFetch(Surface, ivec2(pixel), 0).xy, point);
   return true;
 }
 #endif

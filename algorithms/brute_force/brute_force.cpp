@@ -1,5 +1,9 @@
 #include "algorithms/brute_force/brute_force.h"
 
+#include "spirv/brute_force_forward.h"
+#include "spirv/brute_force_forward_counting.h"
+#include "spirv/brute_force_forward_fp64.h"
+#include "spirv/brute_force_forward_fp64_counting.h"
 #include "spirv/brute_force_shade.h"
 #include "spirv/brute_force_shade_counting.h"
 #include "spirv/brute_force_shade_fp64.h"
@@ -18,8 +22,10 @@ class BruteForce final : public Algorithm {
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {}; }
   ShadeShaders shade_shaders() const override {
-    if (fp64_) return {brute_force_shade_fp64, brute_force_shade_fp64_counting};
-    return {brute_force_shade, brute_force_shade_counting};
+    if (fp64_)
+      return {brute_force_shade_fp64, brute_force_shade_fp64_counting, brute_force_forward_fp64,
+              brute_force_forward_fp64_counting};
+    return {brute_force_shade, brute_force_shade_counting, brute_force_forward, brute_force_forward_counting};
   }
 
  private:

@@ -4,6 +4,8 @@
 
 #include "algorithms/froxels/froxel_lists.h"
 #include "algorithms/froxels/froxel_parameters.h"
+#include "spirv/clustered_forward.h"
+#include "spirv/clustered_forward_counting.h"
 #include "spirv/clustered_shade.h"
 #include "spirv/clustered_shade_counting.h"
 
@@ -55,7 +57,9 @@ class Clustered final : public Algorithm {
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {"Grid", "Offsets", "Indices", "Duplicates"}; }
   bool walks_together() const override { return together_; }
-  ShadeShaders shade_shaders() const override { return {clustered_shade, clustered_shade_counting}; }
+  ShadeShaders shade_shaders() const override {
+    return {clustered_shade, clustered_shade_counting, clustered_forward, clustered_forward_counting};
+  }
   std::vector<uint32_t> shade_constants() const override { return {duplicated_}; }
 
  private:

@@ -5,6 +5,8 @@
 #include "algorithms/fine_pruned/list_passes.h"
 #include "algorithms/fine_pruned/visible_lights.h"
 #include "algorithms/froxels/froxel_parameters.h"
+#include "spirv/fine_pruned_forward.h"
+#include "spirv/fine_pruned_forward_counting.h"
 #include "spirv/fine_pruned_shade.h"
 #include "spirv/fine_pruned_shade_counting.h"
 
@@ -40,7 +42,9 @@ class FinePruned final : public Algorithm {
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {"Visible"}; }
   bool walks_together() const override { return together_; }
-  ShadeShaders shade_shaders() const override { return {fine_pruned_shade, fine_pruned_shade_counting}; }
+  ShadeShaders shade_shaders() const override {
+    return {fine_pruned_shade, fine_pruned_shade_counting, fine_pruned_forward, fine_pruned_forward_counting};
+  }
   std::vector<uint32_t> shade_constants() const override { return {settings_.packed}; }
 
   void create_gpu(gpu::Device& device, const std::vector<gpu::Constant>& shared) override {

@@ -2,6 +2,8 @@
 
 #include "algorithms/froxels/froxel_parameters.h"
 #include "algorithms/trees/tree_algorithm.h"
+#include "spirv/hybrid_forward.h"
+#include "spirv/hybrid_forward_counting.h"
 #include "spirv/hybrid_shade.h"
 #include "spirv/hybrid_shade_counting.h"
 
@@ -20,7 +22,9 @@ class Hybrid final : public TreeAlgorithm {
       : TreeAlgorithm("hybrid", froxel_settings(p), forest_settings(p), walk_together(p)),
         list_case_(p.boolean("list_case")),
         shared_tree_(p.boolean("shared_tree")) {}
-  ShadeShaders shade_shaders() const override { return {hybrid_shade, hybrid_shade_counting}; }
+  ShadeShaders shade_shaders() const override {
+    return {hybrid_shade, hybrid_shade_counting, hybrid_forward, hybrid_forward_counting};
+  }
   std::vector<uint32_t> shade_constants() const override { return {list_case_, shared_tree_}; }
 
  private:

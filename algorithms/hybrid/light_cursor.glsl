@@ -8,9 +8,11 @@
 layout(constant_id = 16) const bool LIST_CASE = false;
 layout(constant_id = 17) const bool SHARED_TREE = false;
 
+#ifndef FORWARD  // fragments have no workgroup
 // Nodes of all subgroups of the workgroup together: 8 KiB, the share of one is what it can copy.
 const uint shared_capacity = 512u;
 shared TreeNode shared_nodes[SHARED_TREE ? shared_capacity : 1u];
+#endif
 
 uint light_cell(SurfacePoint point) {
   uvec2 tile = point.pixel / tile_size;
@@ -29,6 +31,7 @@ bool light_next_in_list(inout LightCursor cursor, out uint light, out float weig
   return true;
 }
 
+#ifndef FORWARD
 // In shared memory the cursor's node and end count from the subgroup's first shared node.
 bool light_next_shared(inout LightCursor cursor, out uint light, out float weight) {
   weight = 1.0;
@@ -66,3 +69,4 @@ uint cursor_case(inout LightCursor cursor) {
   return 2u;
 }
 #define CURSOR_CASES
+#endif

@@ -1,5 +1,7 @@
 #include "algorithms/ideal/ideal.h"
 
+#include "spirv/ideal_forward.h"
+#include "spirv/ideal_forward_counting.h"
 #include "spirv/ideal_shade.h"
 #include "spirv/ideal_shade_counting.h"
 
@@ -15,7 +17,9 @@ class Ideal final : public Algorithm {
   }
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {}; }
-  ShadeShaders shade_shaders() const override { return {ideal_shade, ideal_shade_counting}; }
+  ShadeShaders shade_shaders() const override {
+    return {ideal_shade, ideal_shade_counting, ideal_forward, ideal_forward_counting};
+  }
 
  private:
   PrepareCounters counters_;

@@ -7,6 +7,8 @@
 #include "algorithms/froxels/binning.h"
 #include "algorithms/light_bvh/packing.h"
 #include "harness/base/error.h"
+#include "spirv/light_bvh_forward.h"
+#include "spirv/light_bvh_forward_counting.h"
 #include "spirv/light_bvh_shade.h"
 #include "spirv/light_bvh_shade_counting.h"
 
@@ -51,7 +53,9 @@ class LightBvh final : public Algorithm {
 
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {"Tree", "SphereNodes"}; }
-  ShadeShaders shade_shaders() const override { return {light_bvh_shade, light_bvh_shade_counting}; }
+  ShadeShaders shade_shaders() const override {
+    return {light_bvh_shade, light_bvh_shade_counting, light_bvh_forward, light_bvh_forward_counting};
+  }
   std::vector<uint32_t> shade_constants() const override { return {node_words_}; }
 
  private:

@@ -4,6 +4,8 @@
 
 #include "algorithms/froxels/froxel_parameters.h"
 #include "algorithms/trees/tree_algorithm.h"
+#include "spirv/light_tree_forward.h"
+#include "spirv/light_tree_forward_counting.h"
 #include "spirv/light_tree_shade.h"
 #include "spirv/light_tree_shade_counting.h"
 
@@ -27,7 +29,9 @@ class LightTree final : public TreeAlgorithm {
  public:
   explicit LightTree(const Parameters& p)
       : TreeAlgorithm("light_tree", tiles(p), always_trees(p), walk_together(p)) {}
-  ShadeShaders shade_shaders() const override { return {light_tree_shade, light_tree_shade_counting}; }
+  ShadeShaders shade_shaders() const override {
+    return {light_tree_shade, light_tree_shade_counting, light_tree_forward, light_tree_forward_counting};
+  }
 };
 
 }  // namespace

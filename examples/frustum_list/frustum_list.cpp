@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "spirv/frustum_list_forward.h"
+#include "spirv/frustum_list_forward_counting.h"
 #include "spirv/frustum_list_shade.h"
 #include "spirv/frustum_list_shade_counting.h"
 
@@ -54,7 +56,10 @@ class FrustumList final : public Algorithm {
 
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {"List"}; }
-  ShadeShaders shade_shaders() const override { return {frustum_list_shade, frustum_list_shade_counting}; }
+  ShadeShaders shade_shaders() const override {
+    return {frustum_list_shade, frustum_list_shade_counting, frustum_list_forward,
+            frustum_list_forward_counting};
+  }
 
  private:
   bool sides_;

@@ -53,6 +53,8 @@ Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const S
   effects_.specular = setup.effects.specular;
   effects_.long_lists = lights_->base().size() > Effects::most_turns;
   effects_.alpha_mask = setup.effects.alpha_mask && Level::has_masked_material(*scene_);
+  effects_.forward = setup.effects.forward && Level::has_forward_material(*scene_);
+  effects_.split_targets = setup.shading.targets == ShadingTargets::split;
   frames_ = std::make_unique<FrameSequence>(*scene_, *lights_, path_, setup.camera.frames, setup.width,
                                             setup.height, threads_, effects_.shapes());
 }

@@ -22,7 +22,9 @@ const std::vector<Row>& metrics() {
       {"cpu_ms",
        "prepare() on the CPU by stage (cull, sort, bin, build, upload) and in total, [repeat][frame]"},
       {"gpu_ms",
-       "the device's time by pass (bounds, coarse, lists, shade) and in total, [repeat][frame]; on a "
+       "the device's time by pass (bounds, coarse, lists, shade, composite, forward) and in total, "
+       "[repeat][frame]; on "
+       "a "
        "software device this is "
        "CPU time"},
       {"in_frustum", "lights left after culling against the view, per frame"},
@@ -58,6 +60,11 @@ const std::vector<Row>& effects() {
       {"specular", "GGX highlights (effects.specular: auto | off)"},
       {"alpha_mask",
        "cut-out materials; when a material of the scene has a mask (effects.alpha_mask: auto | off)"},
+      {"forward",
+       "materials lit in a forward pass; when a material of the scene is one (effects.forward: auto | off)"},
+      {"split_targets",
+       "diffuse and specular light written apart and put together by a composite pass (shading.targets: one "
+       "| split)"},
       {"long_lists", "loops that take four lights a turn; with more than 28,000 lights"},
   };
   return rows;

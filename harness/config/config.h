@@ -46,6 +46,15 @@ struct EffectsSpec {
   bool boxes = true;
   bool specular = true;
   bool alpha_mask = true;
+  bool forward = true;
+};
+
+// Where the shading pass writes: the finished light, or diffuse and specular light apart, to be put together
+// by a composite pass that folds in the albedo.
+enum class ShadingTargets { one, split };
+
+struct ShadingSpec {
+  ShadingTargets targets = ShadingTargets::one;
 };
 
 struct AlgorithmSpec {
@@ -61,6 +70,7 @@ struct Setup {
   CameraSpec camera;
   uint32_t width = 960, height = 540;  // px, [1, 16384] each
   EffectsSpec effects;
+  ShadingSpec shading;
   std::vector<AlgorithmSpec> algorithms;
 };
 

@@ -123,6 +123,8 @@ std::vector<Key> make_keys() {
                   }});
   add_section(
       keys, "effects", true, effects_fields(), [](auto& draft) -> auto& { return draft.setup.effects; });
+  add_section(
+      keys, "shading", true, shading_fields(), [](auto& draft) -> auto& { return draft.setup.shading; });
   keys.push_back({"algorithms", false, true,
                   [](const Node& node, Draft& draft) { draft.setup.algorithms = read_algorithms(node); },
                   [](const Draft& draft) { return write_algorithms(draft.setup.algorithms); }});

@@ -130,6 +130,11 @@ const std::vector<std::string>& timing_mode_names() {
   return names;
 }
 
+const std::vector<std::string>& shading_target_names() {
+  static const std::vector<std::string> names{"one", "split"};
+  return names;
+}
+
 }  // namespace
 
 std::span<const Field<SceneSpec>> scene_fields() {
@@ -224,6 +229,18 @@ std::span<const Field<EffectsSpec>> effects_fields() {
        [](const E& e) { return write_auto_off(e.specular); }},
       {"alpha_mask", [](const Node& n, E& e) { e.alpha_mask = read_auto_off(n); },
        [](const E& e) { return write_auto_off(e.alpha_mask); }},
+      {"forward", [](const Node& n, E& e) { e.forward = read_auto_off(n); },
+       [](const E& e) { return write_auto_off(e.forward); }},
+  });
+  return fields;
+}
+
+std::span<const Field<ShadingSpec>> shading_fields() {
+  using S = ShadingSpec;
+  static constexpr auto fields = std::to_array<Field<S>>({
+      {"targets",
+       [](const Node& n, S& s) { s.targets = read_enum<ShadingTargets>(n, shading_target_names()); },
+       [](const S& s) { return write_enum(s.targets, shading_target_names()); }},
   });
   return fields;
 }

@@ -36,6 +36,8 @@ std::vector<std::string> Effects::names() const {
   if (boxes) list.emplace_back("box");
   if (specular) list.emplace_back("specular");
   if (alpha_mask) list.emplace_back("alpha_mask");
+  if (forward) list.emplace_back("forward");
+  if (split_targets) list.emplace_back("split_targets");
   if (long_lists) list.emplace_back("long_lists");
   return list;
 }
@@ -78,8 +80,8 @@ DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const Effects&
                          uint32_t height)
     : device_(device),
       effects_(effects),
-      level_(device, scene, effects.alpha_mask),
-      targets_(device, width, height),
+      level_(device, scene, effects.alpha_mask, effects.forward),
+      targets_(device, width, height, effects.forward, effects.split_targets),
       commands_(device),
       view_(device, sizeof(gpu_data::ViewData), gpu::MemoryKind::upload, "view"),
       lights_(device, "lights"),
@@ -111,6 +113,10 @@ gpu::Bindings DeviceFrame::bindings() const {
                      {"Lights", lights_},
                      {"Extras", extras_},
                      {"Result", targets_.result},
+                     // Not read where nothing is lit forward.
+                     {"Forward", targets_.forward ? *targets_.forward : targets_.surface},
+                     // Not written where there is one target.
+                     {"Specular", targets_.specular ? *targets_.specular : targets_.result},
                      {"ListOffsets", passes_->offsets},
                      {"ListIndices", *passes_->indices}};
   if (counters_)
@@ -123,7 +129,10 @@ gpu::Bindings DeviceFrame::bindings() const {
 }
 
 uint64_t DeviceFrame::target_bytes() const {
-  return targets_.depth.bytes() + targets_.surface.bytes() + targets_.result.bytes();
+  uint64_t sum = targets_.depth.bytes() + targets_.surface.bytes() + targets_.result.bytes();
+  for (const std::optional<gpu::Image>* image : {&targets_.forward, &targets_.diffuse, &targets_.specular})
+    if (*image) sum += (*image)->bytes();
+  return sum;
 }
 
 const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input, bool lists) {

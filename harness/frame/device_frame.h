@@ -21,6 +21,10 @@ struct Effects {
   bool boxes = false;
   bool specular = true;
   bool alpha_mask = false;
+  bool forward = false;  // materials that are lit in a pass of their own
+  // The shading pass writes diffuse and specular light apart (shading.targets: split), not a property of the
+  // content.
+  bool split_targets = false;
   // Shading loops fit for lists of more than `most_turns` lights (shaders/light_eval.glsl says why); costs
   // compile time.
   bool long_lists = true;
@@ -67,6 +71,10 @@ class DeviceFrame {
   const gpu::Buffer& view() const { return view_; }
   uint64_t light_bytes() const { return lights_.used() + extras_.used(); }
   uint64_t target_bytes() const;
+  // Records the forward pass with this program of Level::forward_program. Only with the effect.
+  void record_forward(const gpu::RasterProgram& program, const gpu::Bindings& bindings) {
+    level_.record_forward(commands_, program, bindings, targets_);
+  }
 
   // Reads a picture back, row by row.
   std::vector<uint32_t> read_words(const gpu::Image& image);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstring>
 
+#include "harness/base/error.h"
 #include "shaders/shared/material.h"
+#include "spirv/gbuffer_forward_frag.h"
 #include "spirv/gbuffer_frag.h"
 #include "spirv/gbuffer_vert.h"
 
@@ -27,15 +29,22 @@ gpu::Image uploaded(gpu::Device& device, gpu::Commands& commands, const Texture&
   return image;
 }
 
-std::unique_ptr<gpu::RasterProgram> gbuffer_program(gpu::Device& device, bool masked) {
+gpu::RasterState vertex_state() {
   gpu::RasterState state;
-  state.colors = {gpu::Format::rg32_uint};
   state.vertex_stride = sizeof(Vertex);
   state.attributes = {
       {offsetof(Vertex, position), 3}, {offsetof(Vertex, normal), 3}, {offsetof(Vertex, uv), 2}};
-  return std::make_unique<gpu::RasterProgram>(device, gbuffer_vert, gbuffer_frag,
-                                              masked ? "gbuffer (alpha mask)" : "gbuffer", state,
-                                              std::vector<gpu::Constant>{{0, masked}});
+  return state;
+}
+
+std::unique_ptr<gpu::RasterProgram> gbuffer_program(gpu::Device& device, bool masked, bool forward) {
+  gpu::RasterState state = vertex_state();
+  state.colors = {gpu::Format::rg32_uint};
+  if (forward) state.colors.push_back(gpu::Format::r32_uint);
+  return std::make_unique<gpu::RasterProgram>(
+      device, gbuffer_vert,
+      forward ? std::span<const uint32_t>(gbuffer_forward_frag) : std::span<const uint32_t>(gbuffer_frag),
+      masked ? "gbuffer (alpha mask)" : "gbuffer", state, std::vector<gpu::Constant>{{0, masked}});
 }
 
 }  // namespace
@@ -46,9 +55,19 @@ bool Level::has_masked_material(const Scene& scene) {
   });
 }
 
-Level::Level(gpu::Device& device, const Scene& scene, bool alpha_mask)
+bool Level::has_forward_material(const Scene& scene) {
+  return std::any_of(scene.draws.begin(), scene.draws.end(), [&](const Draw& draw) {
+    return draw.index_count > 0 && scene.materials[draw.material].forward;
+  });
+}
+
+Level::Level(gpu::Device& device, const Scene& scene, bool alpha_mask, bool forward)
     : vertices_(filled(device, scene.vertices, "vertices")),
       indices_(filled(device, scene.indices, "indices")) {
+  if (forward && !device.limits().fragment_triangles)
+    throw SystemError("forward materials: '" + device.info().name +
+                      "' does not number triangles in fragment shaders (geometryShader); "
+                      "effects.forward=off lights them deferred");
   gpu::Commands commands(device);
   for (const Texture& texture : scene.textures) textures_.push_back(uploaded(device, commands, texture));
   textures_.push_back(uploaded(device, commands, Texture{"white", 1, 1, {255, 255, 255, 255}}));
@@ -58,19 +77,21 @@ Level::Level(gpu::Device& device, const Scene& scene, bool alpha_mask)
                   draw.index_count,
                   material.double_sided,
                   alpha_mask && material.alpha_mode == AlphaMode::mask,
+                  forward && material.forward,
                   material.base_color_texture < 0 ? textures_.size() - 1
                                                   : static_cast<size_t>(material.base_color_texture),
                   {}};
-    gpu_data::MaterialData data{material.base_color, material.metallic, material.roughness,
-                                material.alpha_cutoff, material.double_sided};
+    gpu_data::MaterialData data{material.base_color,   material.metallic,
+                                material.roughness,    material.alpha_cutoff,
+                                material.double_sided, item.forward ? 1 + draw.first_index / 3 : 0};
     item.push.resize(sizeof data);
     std::memcpy(item.push.data(), &data, sizeof data);
     items_.push_back(std::move(item));
   }
   bool any_masked =
       std::any_of(items_.begin(), items_.end(), [](const DrawItem& item) { return item.masked; });
-  opaque_ = gbuffer_program(device, false);
-  if (any_masked) masked_ = gbuffer_program(device, true);
+  opaque_ = gbuffer_program(device, false, forward);
+  if (any_masked) masked_ = gbuffer_program(device, true, forward);
 }
 
 void Level::record_gbuffer(gpu::Commands& commands, const gpu::Buffer& view,
@@ -87,7 +108,36 @@ void Level::record_gbuffer(gpu::Commands& commands, const gpu::Buffer& view,
     call.push = item.push;
     draws.push_back(std::move(call));
   }
-  commands.raster({{&targets.surface}, &targets.depth}, vertices_, indices_, draws);
+  gpu::RasterTargets into{{&targets.surface}, &targets.depth};
+  if (targets.forward) into.colors.push_back(&*targets.forward);
+  commands.raster(into, vertices_, indices_, draws);
+}
+
+gpu::RasterProgram Level::forward_program(gpu::Device& device, std::span<const uint32_t> fragment,
+                                          const std::string& name,
+                                          const std::vector<gpu::Constant>& constants) {
+  gpu::RasterState state = vertex_state();
+  state.colors = {gpu::Format::rgba32_float};
+  state.at_equal_depth = true;
+  return {device, gbuffer_vert, fragment, name, state, constants};
+}
+
+void Level::record_forward(gpu::Commands& commands, const gpu::RasterProgram& program,
+                           const gpu::Bindings& bindings, const FrameTargets& targets) const {
+  std::vector<gpu::DrawCall> draws;
+  for (const DrawItem& item : items_) {
+    if (!item.forward) continue;
+    gpu::DrawCall call;
+    call.first_index = item.first_index;
+    call.index_count = item.index_count;
+    call.double_sided = item.double_sided;
+    call.program = &program;
+    call.bindings = bindings;
+    call.bindings.emplace_back("BaseColor", textures_[item.texture]);
+    call.push = item.push;
+    draws.push_back(std::move(call));
+  }
+  commands.raster({{&targets.result}, &targets.depth, true}, vertices_, indices_, draws);
 }
 
 }  // namespace ml

@@ -12,15 +12,27 @@ namespace ml {
 
 class Level {
  public:
-  // Uploads vertices, indices and textures. `alpha_mask` false: masked materials are drawn whole (effect
-  // forced off). Throws SystemError when the device cannot hold the level.
-  Level(gpu::Device& device, const Scene& scene, bool alpha_mask);
+  // Uploads vertices, indices and textures. `alpha_mask` false: masked materials are drawn whole; `forward`
+  // false: forward materials are like any others (effects forced off). Throws SystemError when the device
+  // cannot hold the level, or cannot draw forward materials.
+  Level(gpu::Device& device, const Scene& scene, bool alpha_mask, bool forward = false);
 
-  // Draws everything into depth and surface; `view` is the frame's uniform buffer.
+  // A program of the forward pass; `fragment` is ShadeShaders::forward or its counting twin.
+  static gpu::RasterProgram forward_program(gpu::Device& device, std::span<const uint32_t> fragment,
+                                            const std::string& name,
+                                            const std::vector<gpu::Constant>& constants);
+  // Draws what is lit forward into the result, over what is there; `bindings` is what the shading loop binds.
+  void record_forward(gpu::Commands& commands, const gpu::RasterProgram& program,
+                      const gpu::Bindings& bindings, const FrameTargets& targets) const;
+
+  // Draws everything into depth, surface and (where there is one) forward; `view` is the frame's uniform
+  // buffer.
   void record_gbuffer(gpu::Commands& commands, const gpu::Buffer& view, const FrameTargets& targets) const;
 
   // Whether any material of the scene needs the alpha-masked program.
   static bool has_masked_material(const Scene& scene);
+  // Whether any triangle of the scene is to be lit forward.
+  static bool has_forward_material(const Scene& scene);
 
  private:
   gpu::Buffer vertices_, indices_;
@@ -28,7 +40,7 @@ class Level {
   std::unique_ptr<gpu::RasterProgram> opaque_, masked_;
   struct DrawItem {
     uint32_t first_index, index_count;
-    bool double_sided, masked;
+    bool double_sided, masked, forward;
     size_t texture;
     std::vector<std::byte> push;
   };

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "harness/base/error.h"
+#include "spirv/composite_comp.h"
 
 namespace ml {
 namespace {
@@ -10,10 +11,12 @@ namespace {
 // Ids shared by every shading program (shaders/light_eval.glsl, shaders/shade.comp); an algorithm's own begin
 // at 16.
 std::vector<gpu::Constant> constants_of(const gpu::Device& device, const Effects& effects,
-                                        const Algorithm& algorithm, bool block_list) {
+                                        const Algorithm& algorithm, bool sampled) {
   std::vector<gpu::Constant> constants = effects.constants();
-  constants.push_back({2, block_list});
+  constants.push_back({2, sampled});
   constants.push_back({7, algorithm.walks_together() && device.limits().subgroup_exchange});
+  constants.push_back({8, effects.forward && !sampled});
+  constants.push_back({9, effects.split_targets && !sampled});
   uint32_t id = 16;
   for (uint32_t value : algorithm.shade_constants()) constants.push_back({id++, value});
   return constants;
@@ -48,6 +51,19 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
   // Every buffer exists from the start, so that programs can bind what a frame left empty.
   for (gpu::UploadBuffer& buffer : buffers_) buffer.map(0);
   blocks_.map(0);
+  if (effects.split_targets) composite_.emplace(device, composite_comp, "composite");
+  if (!effects.forward) return;
+  if (!device.limits().fragment_stores)
+    throw SystemError("forward materials: '" + device.info().name +
+                      "' does not count in fragment shaders (fragmentStoresAndAtomics); "
+                      "effects.forward=off lights them deferred");
+  const ShadeShaders shaders = algorithm_->shade_shaders();
+  // Forward materials have their albedo at hand: their light goes to the result at once.
+  std::vector<gpu::Constant> constants = constants_;
+  std::erase_if(constants, [](const gpu::Constant& constant) { return constant.id == 9; });
+  forward_timed_ = Level::forward_program(device, shaders.forward, entry.info.name + ": forward", constants);
+  forward_counting_ = Level::forward_program(device, shaders.forward_counting,
+                                             entry.info.name + ": forward, counting", constants);
 }
 
 std::span<std::byte> ShadedAlgorithm::map(uint32_t slot, size_t bytes) {
@@ -87,7 +103,7 @@ gpu::Bindings ShadedAlgorithm::cull(gpu::Commands& commands, const DeviceFrame& 
 }
 
 void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input,
-                             const gpu::ComputeProgram& program) {
+                             const gpu::ComputeProgram& program, const gpu::RasterProgram* forward) {
   bool twins = false;
   for (const gpu::UploadBuffer& buffer : buffers_) twins |= buffer.has_twin();
   if (twins) {
@@ -95,15 +111,32 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
     for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
   }
   const gpu::Bindings list = cull(commands, frame, input);
-  auto span = commands.span("shade");
-  commands.dispatch(program, list, std::span<const std::byte>{}, (input.view.resolution.x + 7) / 8,
-                    (input.view.resolution.y + 7) / 8);
+  const uint32_t across = (input.view.resolution.x + 7) / 8, down = (input.view.resolution.y + 7) / 8;
+  const FrameTargets& targets = frame.targets();
+  {
+    gpu::Bindings into = list;
+    if (targets.diffuse) {
+      std::erase_if(into, [](const gpu::Binding& b) { return b.name == "Result"; });
+      into.emplace_back("Result", *targets.diffuse);
+    }
+    auto span = commands.span("shade");
+    commands.dispatch(program, into, std::span<const std::byte>{}, across, down);
+  }
+  if (composite_) {
+    auto span = commands.span("composite");
+    gpu::Bindings both = frame.bindings();
+    both.emplace_back("Diffuse", *targets.diffuse);
+    commands.dispatch(*composite_, both, std::span<const std::byte>{}, across, down);
+  }
+  if (!forward) return;
+  auto span = commands.span("forward");
+  frame.record_forward(*forward, list);
 }
 
 gpu::SubmissionTimes ShadedAlgorithm::shade(DeviceFrame& frame, const FrameInput& input, gpu::Timing timing) {
   gpu::Commands& commands = frame.commands();
   commands.begin(timing);
-  record(commands, frame, input, timed_);
+  record(commands, frame, input, timed_, forward_timed_ ? &*forward_timed_ : nullptr);
   return commands.submit();
 }
 
@@ -111,7 +144,7 @@ void ShadedAlgorithm::count(DeviceFrame& frame, const FrameInput& input) {
   frame.counters();  // makes them part of the frame's bindings
   gpu::Commands& commands = frame.commands();
   commands.begin(gpu::Timing::none);
-  record(commands, frame, input, counting_);
+  record(commands, frame, input, counting_, forward_counting_ ? &*forward_counting_ : nullptr);
   commands.submit();
   algorithm_->read_counters(commands);
 }

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 
 #include "algorithms/algorithm.h"
 #include "harness/frame/device_frame.h"
@@ -23,7 +24,9 @@ class ShadedAlgorithm final : private UploadMemory {
   // GPU, counting variant: fills the frame's counters too.
   void count(DeviceFrame& frame, const FrameInput& input);
   // The same for only the 8x8 blocks of the list, for sampled references: result and counters of other blocks
-  // keep what they held. At most 65,535 blocks (workgroups along one axis on the smallest devices).
+  // keep what they held. All is lit deferred and into one target, a reference for the
+  // other ways. At most 65,535 blocks
+  // (workgroups along one axis on the smallest devices).
   void count_blocks(DeviceFrame& frame, const FrameInput& input, std::span<const glm::uvec2> blocks);
 
   // A hash of every byte that the last prepare() gave to the GPU.
@@ -41,7 +44,7 @@ class ShadedAlgorithm final : private UploadMemory {
   // Records list building; what the shading pass binds.
   gpu::Bindings cull(gpu::Commands& commands, const DeviceFrame& frame, const FrameInput& input);
   void record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input,
-              const gpu::ComputeProgram& program);
+              const gpu::ComputeProgram& program, const gpu::RasterProgram* forward);
 
   gpu::Device& device_;
   const AlgorithmEntry& entry_;
@@ -51,7 +54,9 @@ class ShadedAlgorithm final : private UploadMemory {
   gpu::UploadBuffer blocks_;
   std::vector<gpu::Constant> constants_;
   gpu::ComputeProgram timed_, counting_;
-  std::unique_ptr<gpu::ComputeProgram> sampled_;  // made when first asked for
+  std::optional<gpu::ComputeProgram> composite_;                        // with split targets
+  std::optional<gpu::RasterProgram> forward_timed_, forward_counting_;  // with the effect
+  std::unique_ptr<gpu::ComputeProgram> sampled_;                        // made when first asked for
 };
 
 }  // namespace ml

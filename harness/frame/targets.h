@@ -1,6 +1,8 @@
 // The pictures of one resolution on the device.
 #pragma once
 
+#include <optional>
+
 #include "harness/gpu/resources.h"
 
 namespace ml {
@@ -8,10 +10,22 @@ namespace ml {
 // G-buffer and HDR result.
 struct FrameTargets {
   gpu::Image depth, surface, result;
-  FrameTargets(gpu::Device& device, uint32_t width, uint32_t height)
+  // Which triangle a pixel shows, from 1, where it is lit forward; else 0. Only where something is.
+  std::optional<gpu::Image> forward;
+  // Light that the albedo multiplies, and the rest: only where the shading pass writes them apart.
+  std::optional<gpu::Image> diffuse, specular;
+  FrameTargets(gpu::Device& device, uint32_t width, uint32_t height, bool with_forward = false,
+               bool split = false)
       : depth(device, width, height, gpu::Format::d32_float, gpu::ImageUse::attachment, "depth"),
         surface(device, width, height, gpu::Format::rg32_uint, gpu::ImageUse::attachment, "surface"),
-        result(device, width, height, gpu::Format::rgba32_float, gpu::ImageUse::storage, "result") {}
+        result(device, width, height, gpu::Format::rgba32_float,
+               with_forward ? gpu::ImageUse::storage_attachment : gpu::ImageUse::storage, "result") {
+    if (with_forward)
+      forward.emplace(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::attachment, "forward");
+    if (!split) return;
+    diffuse.emplace(device, width, height, gpu::Format::rgba32_float, gpu::ImageUse::storage, "diffuse");
+    specular.emplace(device, width, height, gpu::Format::rgba32_float, gpu::ImageUse::storage, "specular");
+  }
   uint32_t width() const { return depth.width(); }
   uint32_t height() const { return depth.height(); }
 };

@@ -249,10 +249,11 @@ void Commands::raster(const RasterTargets& targets, const Buffer& vertices, cons
   Impl& c = *impl_;
   auto attachment = [&](const Image& image) {
     c.to_general(image);
-    return vk::RenderingAttachmentInfo(*image.impl().view, vk::ImageLayout::eGeneral,
-                                       vk::ResolveModeFlagBits::eNone, {}, vk::ImageLayout::eUndefined,
-                                       vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
-                                       vk::ClearValue{});
+    return vk::RenderingAttachmentInfo(
+        *image.impl().view, vk::ImageLayout::eGeneral, vk::ResolveModeFlagBits::eNone, {},
+        vk::ImageLayout::eUndefined,
+        targets.keep ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear,
+        vk::AttachmentStoreOp::eStore, vk::ClearValue{});
   };
   std::vector<vk::RenderingAttachmentInfo> colors;
   for (const Image* color : targets.colors) colors.push_back(attachment(*color));

@@ -57,6 +57,7 @@ struct DrawCall {
 struct RasterTargets {
   std::vector<const Image*> colors;  // cleared to 0
   const Image* depth = nullptr;      // cleared to 0, the farthest
+  bool keep = false;                 // nothing is cleared
 };
 
 class Commands {
@@ -81,7 +82,7 @@ class Commands {
     dispatch(program, bindings, std::as_bytes(std::span(&push, 1)), groups_x, groups_y, groups_z);
   }
 
-  // Clears the targets and draws.
+  // Clears the targets (unless they are kept) and draws.
   void raster(const RasterTargets& targets, const Buffer& vertices, const Buffer& indices,
               std::span<const DrawCall> draws);
 

@@ -194,7 +194,10 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, uint32_t fami
   result.push_constant_bytes = limits.maxPushConstantsSize;
   result.timestamp_valid_bits = physical.getQueueFamilyProperties()[family].timestampValidBits;
   result.timestamp_period_ns = static_cast<double>(limits.timestampPeriod);
-  result.fp64 = physical.getFeatures().shaderFloat64;
+  const vk::PhysicalDeviceFeatures features = physical.getFeatures();
+  result.fp64 = features.shaderFloat64;
+  result.fragment_triangles = features.geometryShader;
+  result.fragment_stores = features.fragmentStoresAndAtomics;
   vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
   for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
     if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
@@ -215,6 +218,8 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, uint32_t 
   v12.pNext = &v13;
   vk::PhysicalDeviceFeatures2 features;
   features.features.shaderFloat64 = limits.fp64;
+  features.features.geometryShader = limits.fragment_triangles;
+  features.features.fragmentStoresAndAtomics = limits.fragment_stores;
   features.pNext = &v12;
   vk::DeviceCreateInfo info({}, queue);
   info.pNext = &features;

@@ -33,6 +33,8 @@ struct DeviceLimits {
   uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
   double timestamp_period_ns = 0;
   bool fp64 = false;
+  // Fragment shaders may number the triangles of a draw (gl_PrimitiveID), and write images.
+  bool fragment_triangles = false, fragment_stores = false;
   uint64_t device_memory = 0;  // bytes of the largest device-local heap
 };
 

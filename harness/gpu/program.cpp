@@ -160,7 +160,9 @@ RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex,
                                                     vk::CullModeFlagBits::eBack,
                                                     vk::FrontFace::eCounterClockwise, VK_FALSE, 0, 0, 0, 1);
     vk::PipelineMultisampleStateCreateInfo samples({}, vk::SampleCountFlagBits::e1);
-    vk::PipelineDepthStencilStateCreateInfo depth({}, VK_TRUE, VK_TRUE, vk::CompareOp::eGreater);
+    vk::PipelineDepthStencilStateCreateInfo depth(
+        {}, VK_TRUE, state.at_equal_depth ? VK_FALSE : VK_TRUE,
+        state.at_equal_depth ? vk::CompareOp::eEqual : vk::CompareOp::eGreater);
     using Component = vk::ColorComponentFlagBits;
     vk::PipelineColorBlendAttachmentState opaque;
     opaque.colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA;

@@ -47,9 +47,12 @@ struct RasterState {
   Format depth = Format::d32_float;
   uint32_t vertex_stride = 0;
   std::vector<VertexAttribute> attributes;  // location = position in this list
+  // False: nearer triangles pass and leave their depth. True: only what lies at the depth that is there
+  // passes.
+  bool at_equal_depth = false;
 };
 
-// Triangles with reversed depth (greater passes, written); cull mode is set per draw.
+// Triangles with reversed depth; cull mode is set per draw.
 class RasterProgram {
  public:
   RasterProgram(Device& device, std::span<const uint32_t> vertex, std::span<const uint32_t> fragment,

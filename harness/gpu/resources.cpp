@@ -131,8 +131,9 @@ Image::Image(Device& owner, uint32_t width, uint32_t height, Format format, Imag
   impl_->aspect = depth ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
   using Usage = vk::ImageUsageFlagBits;
   vk::ImageUsageFlags usage = Usage::eTransferSrc | Usage::eTransferDst | Usage::eSampled;
-  if (use == ImageUse::storage) usage |= Usage::eStorage;
-  if (use == ImageUse::attachment) usage |= depth ? Usage::eDepthStencilAttachment : Usage::eColorAttachment;
+  if (use == ImageUse::storage || use == ImageUse::storage_attachment) usage |= Usage::eStorage;
+  if (use == ImageUse::attachment || use == ImageUse::storage_attachment)
+    usage |= depth ? Usage::eDepthStencilAttachment : Usage::eColorAttachment;
   vk::ImageCreateInfo info({}, vk::ImageType::e2D, vulkan_format(format), vk::Extent3D(width, height, 1), 1,
                            1, vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage);
   impl_->image = vk::raii::Image(device.device, info);

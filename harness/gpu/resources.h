@@ -65,9 +65,10 @@ size_t bytes_per_pixel(Format format);
 
 enum class ImageUse {
   storage,
-  attachment,
+  attachment,  // also read by compute shaders as a sampled image
+  storage_attachment,
   texture
-};  // attachment: also read by compute shaders as a sampled image
+};
 
 class Image {
  public:

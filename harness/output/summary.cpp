@@ -17,16 +17,32 @@ std::vector<double> samples(const SampleTable& table, const CaseResult& one, con
   return table.first(one.repeats_done).all(name);
 }
 
-// The device's list building: every pass before shading, in the same order of samples.
-std::vector<double> cull_samples(const CaseResult& one) {
+bool is_shading(const std::string& pass) {
+  return pass == "shade" || pass == "composite" || pass == "forward";
+}
+
+// The device's passes of one kind together, in the same order of samples.
+template <typename Predicate>
+std::vector<double> summed_samples(const CaseResult& one, Predicate wanted) {
   std::vector<double> sums;
   for (const auto& [name, table] : one.gpu_ms.tables()) {
-    if (name == "shade" || name == "total" || name == "transfer") continue;
+    if (!wanted(name)) continue;
     const std::vector<double> values = samples(one.gpu_ms, one, name.c_str());
     sums.resize(std::max(sums.size(), values.size()));
     for (size_t i = 0; i < values.size(); ++i) sums[i] += values[i];
   }
   return sums;
+}
+
+std::vector<double> shading_samples(const CaseResult& one) {
+  return summed_samples(one, is_shading);
+}
+
+// List building: every pass before shading.
+std::vector<double> cull_samples(const CaseResult& one) {
+  return summed_samples(one, [](const std::string& name) {
+    return !is_shading(name) && name != "total" && name != "transfer";
+  });
 }
 
 std::string milliseconds(double value) {
@@ -103,7 +119,7 @@ std::string efficiency(const Result& result, const CaseResult& one) {
     ideal = &other;
   }
   if (!ideal) return "-";
-  auto best = samples(ideal->gpu_ms, *ideal, "shade"), own = samples(one.gpu_ms, one, "shade");
+  auto best = shading_samples(*ideal), own = shading_samples(one);
   if (best.empty() || own.empty() || !(median(own) > 0)) return "-";
   return fmt::format("{:.2f}", median(best) / median(own));
 }
@@ -170,13 +186,13 @@ std::string summary_table(const Result& result) {
   for (const CaseResult& one : result.cases) {
     any_suspect |= one.timing_suspect;
     auto lost = counter_sum(one, "lost");
-    rows.push_back(
-        {label(one, differing[one.algorithm]), one.scene, std::to_string(one.lights),
-         fmt::format("{}x{}", one.width, one.height), median_and_quartiles(samples(one.cpu_ms, one, "total")),
-         median_ms(cull_samples(one)), median_ms(samples(one.gpu_ms, one, "shade")),
-         median_ms(samples(one.gpu_ms, one, "total")), counter_mean(one, "tested"),
-         counter_mean(one, "contributing"), counter_mean(one, "listed"), bytes(one),
-         lost ? fmt::format("{:.0f}", *lost) : "-", efficiency(result, one), one.timing_suspect ? "!" : ""});
+    rows.push_back({label(one, differing[one.algorithm]), one.scene, std::to_string(one.lights),
+                    fmt::format("{}x{}", one.width, one.height),
+                    median_and_quartiles(samples(one.cpu_ms, one, "total")), median_ms(cull_samples(one)),
+                    median_ms(shading_samples(one)), median_ms(samples(one.gpu_ms, one, "total")),
+                    counter_mean(one, "tested"), counter_mean(one, "contributing"),
+                    counter_mean(one, "listed"), bytes(one), lost ? fmt::format("{:.0f}", *lost) : "-",
+                    efficiency(result, one), one.timing_suspect ? "!" : ""});
   }
   return aligned(rows, 2) + "\n" + footnote(result, any_suspect);
 }

@@ -134,6 +134,7 @@ class Exporter {
     if (source.alpha_mode == AlphaMode::mask)
       json["alphaMode"] = "MASK", json["alphaCutoff"] = source.alpha_cutoff;
     if (source.double_sided) json["doubleSided"] = true;
+    if (source.forward) json["extras"]["manylights"] = {{"forward", true}};
     out_.json()["materials"].push_back(std::move(json));
     return known->second;
   }

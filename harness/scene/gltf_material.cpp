@@ -20,7 +20,7 @@ class MaterialLoader {
   MaterialLoader(File& file, Scene& scene) : file_(file), scene_(scene) {}
 
   void load() {
-    size_t blended = 0;
+    size_t blended = 0, index = 0;
     for (const tinygltf::Material& source : file_.model.materials) {
       Material material;
       material.name = source.name;
@@ -36,6 +36,8 @@ class MaterialLoader {
       blended += source.alphaMode == "BLEND";
       if (surface.baseColorTexture.index >= 0)
         material.base_color_texture = texture(static_cast<size_t>(surface.baseColorTexture.index));
+      const Json& json = file_.json["materials"][index++];
+      material.forward = json.value("/extras/manylights/forward"_json_pointer, false);
       scene_.materials.push_back(std::move(material));
     }
     Material plain;

@@ -36,7 +36,8 @@ glm::dvec3 load_meshes(File& file, const std::vector<PlacedNode>& nodes, const g
                        Scene& scene);
 
 // gltf_material.cpp. The materials in the file's order and the textures that they use. At the end comes a
-// material for primitives without one; it is dropped by load_meshes when nothing uses it.
+// material for primitives without one; it is dropped by load_meshes when nothing uses it. "forward" true in a
+// material's extras.manylights makes it a forward material.
 void load_materials(File& file, Scene& scene);
 
 // Where a material's base colour texture finds its coordinates, and how they are moved

@@ -125,7 +125,10 @@ Fields material_fields() {
   return {text("name"),
           object("pbrMetallicRoughness", {numbers("baseColorFactor", 4), texture, number("metallicFactor"),
                                           number("roughnessFactor")}),
-          text("alphaMode", {"OPAQUE", "MASK", "BLEND"}), number("alphaCutoff", 0), boolean("doubleSided")};
+          text("alphaMode", {"OPAQUE", "MASK", "BLEND"}),
+          number("alphaCutoff", 0),
+          boolean("doubleSided"),
+          own_extras({boolean("forward")})};
 }
 
 Fields camera_fields() {

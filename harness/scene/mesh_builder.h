@@ -65,16 +65,19 @@ class MeshBuilder {
   std::vector<std::vector<uint32_t>> indices_;  // by material
 };
 
+enum class Finish { plain, double_sided, forward };
+
 // A function that adds an opaque material without textures to `mesh` and returns its number.
 inline auto adder_of_materials(MeshBuilder& mesh) {
   return [&mesh](const char* name, const glm::vec3& colour, float metallic, float roughness,
-                 bool double_sided = false) {
+                 Finish finish = Finish::plain) {
     Material material;
     material.name = name;
     material.base_color = glm::vec4(colour, 1);
     material.metallic = metallic;
     material.roughness = roughness;
-    material.double_sided = double_sided;
+    material.double_sided = finish == Finish::double_sided;
+    material.forward = finish == Finish::forward;
     return mesh.add_material(material);
   };
 }

@@ -46,6 +46,7 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
+  bool forward = false;  // lit in its mesh's own fragment shader, and left out of the deferred pass
 };
 
 // A run of indices with one material.

@@ -62,6 +62,8 @@ inline const std::vector<BadDocument>& bad_documents() {
       {R"({"lights": {"box_fraction": -0.1}})", "$.lights.box_fraction", "from 0 to 1"},
       {R"({"lights": {"wedge_fraction": 2}})", "$.lights.wedge_fraction", "from 0 to 1"},
       {R"({"effects": {"boxes": "on"}})", "$.effects.boxes", "one of 'auto', 'off'"},
+      {R"({"shading": {"targets": 2}})", "$.shading.targets", "one of 'one', 'split'"},
+      {R"({"shading": {"target": "one"}})", "$.shading.target", "did you mean 'targets'"},
       {R"({"lights": {"intensity": 0}})", "$.lights.intensity", "found 0"},
       {R"({"lights": {"seed": 4294967296}})", "$.lights.seed", "found 4294967296"},
       {R"({"lights": {"placement": "everywhere"}})", "$.lights.placement", "'volume'"},

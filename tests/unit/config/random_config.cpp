@@ -87,8 +87,9 @@ json scene() {
   return object;
 }
 
+// Large enough for 256 slices of the largest picture: more froxels than a list can number are refused.
 json tile() {
-  return integer(4, 1024);
+  return integer(91, 1024);
 }
 
 json algorithm() {
@@ -154,8 +155,10 @@ json random_config() {
     if (now()) config["outputs"]["heatmaps"] = json::array();
   }
   if (now())
-    config["effects"] = {{one_of({"spots", "capsules", "wedges", "boxes", "specular", "alpha_mask"}),
-                          one_of({"auto", "off"})}};
+    config["effects"] = {
+        {one_of({"spots", "capsules", "wedges", "boxes", "specular", "alpha_mask", "forward"}),
+         one_of({"auto", "off"})}};
+  if (now()) config["shading"] = {{"targets", one_of({"one", "split"})}};
   if (now()) {
     json sweep = json::object();
     if (now()) sweep["lights.count"] = values(integer(1, 4), true, [] { return light_value("count"); });
@@ -163,6 +166,7 @@ json random_config() {
     if (now() && clustered) sweep["algorithms.tile"] = values(integer(1, 3), true, tile);
     if (now()) sweep["lights.intensity"] = {1e-5, 0.7, 3};
     if (now()) sweep["effects"] = {{{"spots", "off"}}, {{"spots", "auto"}}};
+    if (now()) sweep["shading.targets"] = {"one", "split"};
     config["sweep"] = sweep;
   }
   if (now()) {

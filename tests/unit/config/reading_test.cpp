@@ -73,7 +73,8 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
     "algorithms": [{"name": "clustered", "tile": 32, "zmin": 2, "refinement": true, "light_data": "duplicated"}, "brute_force"],
     "measure": {"warmup": 0, "repeats": 5, "threads": 2, "seed": 9, "mode": "whole"},
     "outputs": {"heatmaps": [2, 0], "images": [1], "trace": false},
-    "effects": {"spots": "off", "capsules": "off", "wedges": "auto", "boxes": "off", "specular": "auto", "alpha_mask": "off"}})");
+    "effects": {"spots": "off", "capsules": "off", "wedges": "auto", "boxes": "off", "specular": "auto", "alpha_mask": "off", "forward": "off"},
+    "shading": {"targets": "split"}})");
   EXPECT_EQ(config.name, "every");
   const ml::Setup& setup = config.setups.at(0);
   EXPECT_EQ(setup.scene.gltf, "/levels/a.glb");
@@ -124,6 +125,8 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
   EXPECT_FALSE(setup.effects.boxes);
   EXPECT_TRUE(setup.effects.specular);
   EXPECT_FALSE(setup.effects.alpha_mask);
+  EXPECT_FALSE(setup.effects.forward);
+  EXPECT_EQ(setup.shading.targets, ShadingTargets::split);
 }
 
 TEST(ConfigReading, SharesOfTheShapesAddUpToOneAtMost) {

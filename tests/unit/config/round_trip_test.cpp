@@ -39,6 +39,7 @@ void expect_same(const Config& a, const Config& b) {
       RC_ASSERT(x.camera.keyframes[k].position == y.camera.keyframes[k].position);
     }
     RC_ASSERT(x.width == y.width && x.height == y.height);
+    RC_ASSERT(x.shading.targets == y.shading.targets);
     RC_ASSERT(x.effects.spots == y.effects.spots);
     RC_ASSERT(x.effects.capsules == y.effects.capsules);
     RC_ASSERT(x.effects.wedges == y.effects.wedges);
@@ -68,8 +69,8 @@ TEST(ConfigRoundTrip, ResolvedHoldsEveryKeyThatWasGiven) {
   EXPECT_TRUE(rc::check([] {
     json document = random_config();
     json resolved = parse_config(document, "first.json", "/levels").resolved;
-    for (const char* key :
-         {"name", "scene", "lights", "camera", "resolution", "algorithms", "measure", "outputs", "effects"}) {
+    for (const char* key : {"name", "scene", "lights", "camera", "resolution", "algorithms", "measure",
+                            "outputs", "effects", "shading"}) {
       RC_ASSERT(resolved.contains(key));
     }
     for (const char* section : {"lights", "measure", "outputs"}) {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -121,6 +123,16 @@ TEST(Summary, CullIsAllThatTheDeviceDoesBeforeShading) {
   EXPECT_TRUE(contains(line_with(summary_table(result), "clustered"), " 16.75 "));
   EXPECT_FALSE(contains(none, "16.75"));
   EXPECT_TRUE(contains(line_with(summary_table(result), "ideal"), " - "));
+}
+
+TEST(Summary, ShadingIsTheDeferredAndTheForwardPass) {
+  Result result = make_result("cpu");
+  for (uint32_t repeat = 0; repeat < 2; ++repeat)
+    for (uint32_t frame = 0; frame < 2; ++frame) result.cases[0].gpu_ms.set("forward", repeat, frame, 100.5);
+  const double shade = result.cases[0].gpu_ms.tables().at("shade")[0][0];
+  const std::string line = line_with(summary_table(result), "clustered");
+  EXPECT_TRUE(contains(line, fmt::format(" {:.1f} ", shade + 100.5))) << line;
+  EXPECT_TRUE(contains(line, " - ")) << "the forward pass is no list building: " << line;
 }
 
 TEST(Summary, EfficiencyNeedsTheIdealOfTheSameSetup) {

@@ -91,6 +91,20 @@ TEST(GltfMaterial, FactorsAndModes) {
             std::vector<std::string>{"1 materials blend, and are drawn as masks with cutoff 0.5"});
 }
 
+TEST(GltfMaterial, ForwardStandsInTheExtras) {
+  GltfTestFile file = triangle_file();
+  file.json["materials"] = Json::array({{{"extras", {{"manylights", {{"forward", true}}}}}},
+                                        {{"extras", {{"manylights", {{"forward", false}}}}}},
+                                        {{"extras", {{"manylights", 7}}}},
+                                        {{"extras", "somebody else's"}},
+                                        {{"name", "plain"}}});
+  file.primitive()["material"] = 0;
+  Scene scene = file.load();
+  for (size_t i = 0; i < scene.materials.size(); ++i) EXPECT_EQ(scene.materials[i].forward, i == 0) << i;
+  file.json["materials"][0]["extras"]["manylights"]["forward"] = "yes";
+  EXPECT_THROW(file.load(), UsageError);
+}
+
 TEST(GltfMaterial, PrimitivesWithoutMaterialGetThePlainOne) {
   Scene scene = triangle_file().load();
   ASSERT_EQ(scene.materials.size(), 1u);

@@ -56,7 +56,7 @@ Scene busy_scene() {
        .alpha_mode = AlphaMode::mask,
        .alpha_cutoff = 0.3f,
        .double_sided = true},
-      {.name = "wood"}};
+      {.name = "wood", .forward = true}};
   Texture texture{.name = "leaf", .width = 5, .height = 3, .rgba = {}};
   for (int i = 0; i < 5 * 3 * 4; ++i) texture.rgba.push_back(static_cast<uint8_t>(random.next()));
   scene.textures.push_back(texture);
@@ -161,6 +161,7 @@ TEST_F(GltfRoundTrip, MaterialsAndTexturesStay) {
     EXPECT_EQ(a.alpha_mode, b.alpha_mode);
     EXPECT_EQ(a.alpha_mode == AlphaMode::mask ? a.alpha_cutoff : b.alpha_cutoff, b.alpha_cutoff);
     EXPECT_EQ(a.double_sided, b.double_sided);
+    EXPECT_EQ(a.forward, b.forward);
   }
   ASSERT_EQ(after.textures.size(), 1u);
   EXPECT_EQ(after.textures[0].name, "leaf");
