@@ -105,6 +105,14 @@ struct ShadeShaders {
   Spirv forward, forward_counting;
 };
 
+// A class for each tile of a picture: `of_tile`[row * columns + column], at most `most`. No tiles: all are of
+// class `most`.
+struct TileClasses {
+  uint32_t most = 0;
+  uint32_t tile = 0, columns = 0;  // px, tiles
+  std::span<const uint8_t> of_tile;
+};
+
 class Algorithm {
  public:
   virtual ~Algorithm() = default;
@@ -119,6 +127,19 @@ class Algorithm {
   virtual ShadeShaders shade_shaders() const = 0;
   // Values of the cursor's specialization constants (ids from 16), in order.
   virtual std::vector<uint32_t> shade_constants() const { return {}; }
+
+  // At most how many lights and nodes a pixel looks at in the frame that prepare() saw last; no less than any
+  // pixel does. Short walks are shaded by loops that fit them better (shaders/light_eval.glsl, LONG_LISTS).
+  virtual uint64_t longest_walk() const { return unknown_walk; }
+  static constexpr uint64_t unknown_walk = UINT64_MAX;
+
+  // The classes of the picture's tiles in the frame that prepare() saw last, where some need less of the
+  // shading loop than others. Each class is shaded by a program of its own, for what a program can do costs time
+  // also where it is not needed.
+  virtual TileClasses tile_classes() const { return {}; }
+  // Further constants of a class's program, behind shade_constants(). A higher class can do what a lower one can;
+  // the highest is `TileClasses::most`.
+  virtual std::vector<uint32_t> class_constants(uint32_t /*tile_class*/) const { return {}; }
 
   // The pixels of a subgroup walk their cells' lights together, where the device can (shade.comp:
   // CURSOR_RUNS).

@@ -22,12 +22,14 @@
 // Which pixels are lit forward (gbuffer.frag).
 layout(binding = BIND_FORWARD) uniform usampler2D Forward;
 #ifndef FORWARD
-// Pixels are walked in blocks of 8x8; with a list of blocks only those (the sampled reference), else the whole picture.
+// Pixels are walked in blocks of 8x8; with a list of blocks only those (the tiles of one class, the sampled reference), else the whole
+// picture.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 2) const bool BLOCK_LIST = false;
 // The pixels of a subgroup walk lights together: needs votes, shuffles and arithmetic across the subgroup, and a cursor that can.
 layout(constant_id = 7) const bool WALK_TOGETHER = false;
 layout(scalar, binding = BIND_BLOCKS) readonly buffer Blocks { uvec2 blocks[]; };
+layout(push_constant, scalar) uniform BlockRange { uint first_block; };  // where the dispatch begins in the list
 // Pixels that are lit forward are left out, and black until the forward pass has lit them.
 layout(constant_id = 8) const bool EFFECT_FORWARD = false;
 layout(rgba32f, binding = BIND_RESULT) writeonly uniform image2D Result;
@@ -149,7 +151,7 @@ bool surface_to_light(uvec2 pixel, out SurfacePoint point) {
 }
 
 void main() {
-  uvec2 block = BLOCK_LIST ? blocks[gl_WorkGroupID.x] : gl_WorkGroupID.xy;
+  uvec2 block = BLOCK_LIST ? blocks[first_block + gl_WorkGroupID.x] : gl_WorkGroupID.xy;
   uvec2 pixel = block * 8u + gl_LocalInvocationID.xy;
   const bool inside = all(lessThan(pixel, view.resolution));
   VEC3 sum = VEC3(0);

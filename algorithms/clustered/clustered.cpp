@@ -57,6 +57,7 @@ class Clustered final : public Algorithm {
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {"Grid", "Offsets", "Indices", "Duplicates"}; }
   bool walks_together() const override { return together_; }
+  uint64_t longest_walk() const override { return lists_.longest(); }
   ShadeShaders shade_shaders() const override {
     return {clustered_shade, clustered_shade_counting, clustered_forward, clustered_forward_counting};
   }

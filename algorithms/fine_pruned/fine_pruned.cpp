@@ -26,8 +26,11 @@ class FinePruned final : public Algorithm {
     lights_.cull(frame, spans);
     lights_.sort(frame, settings_.packed ? ML_PACKED_VISIBLE : ML_LIGHT_ID_MASK, spans);
     auto span = spans.span("upload");
-    entries_ = settings_.packed ? 0 : lights_.most_entries(frame);
     const gpu_data::VisibleHeader& header = lights_.header();
+    entries_ = settings_.packed ? 0 : lights_.most_entries(frame);
+    longest_walk_ = settings_.packed ? ML_PACKED_LIGHTS : lights_.most_in_a_tile();
+    // Where the device may have no room for all lists some tiles walk all lights in view.
+    if (entries_ > memory.limit() / 8) longest_walk_ = header.count;
     const size_t index_bytes = lights_.lights().size_bytes();
     std::span<std::byte> to = memory.map(visible_slot, sizeof header + index_bytes);
     std::memcpy(to.data(), &header, sizeof header);
@@ -42,6 +45,7 @@ class FinePruned final : public Algorithm {
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {"Visible"}; }
   bool walks_together() const override { return together_; }
+  uint64_t longest_walk() const override { return longest_walk_; }
   ShadeShaders shade_shaders() const override {
     return {fine_pruned_shade, fine_pruned_shade_counting, fine_pruned_forward, fine_pruned_forward_counting};
   }
@@ -72,7 +76,7 @@ class FinePruned final : public Algorithm {
   PruneSettings settings_;
   bool together_;
   VisibleLightList lights_;
-  uint64_t entries_ = 0;
+  uint64_t entries_ = 0, longest_walk_ = 0;
   PrepareCounters counters_;
   std::unique_ptr<ListPasses> passes_;
 };

@@ -50,10 +50,41 @@ void VisibleLightList::sort(const FrameInput& frame, uint32_t most, Spans& spans
 }
 
 uint64_t VisibleLightList::most_entries(const FrameInput& frame) {
+  const FroxelGrid grid = tile_grid(frame.view);
+  columns_ = grid.columns;
+  rows_ = grid.rows;
   if (visible_.count == 0) return 0;
   reserve_padded(boxes_, visible_.count);
-  simd::bound(VisibleRun(visible_), BoundsConstants(frame.view, tile_grid(frame.view)), boxes_.data());
+  simd::bound(VisibleRun(visible_), BoundsConstants(frame.view, grid), boxes_.data());
   return count_pairs(boxes_.data(), nullptr, visible_.count);
+}
+
+uint32_t VisibleLightList::most_in_a_tile() {
+  // A box adds one from its first column and row on and takes it away behind its last; sums over columns and rows
+  // are the numbers of boxes.
+  const size_t stride = columns_ + size_t{1};
+  changes_.assign(stride * (rows_ + size_t{1}), 0);
+  for (size_t i = 0; i < visible_.count; ++i) {
+    const LightBox& box = boxes_[i];
+    if (box.columns == 0) continue;
+    const size_t row = box.first / columns_, column = box.first % columns_;
+    ++changes_[row * stride + column];
+    --changes_[row * stride + column + box.columns];
+    --changes_[(row + box.rows) * stride + column];
+    ++changes_[(row + box.rows) * stride + column + box.columns];
+  }
+  int32_t most = 0;
+  for (size_t row = 0; row < rows_; ++row) {
+    int32_t across = 0;
+    for (size_t column = 0; column < columns_; ++column) {
+      // changes_ of the row above are already sums over rows.
+      int32_t& change = changes_[row * stride + column];
+      if (row > 0) change += changes_[(row - 1) * stride + column];
+      across += change;
+      most = std::max(most, across);
+    }
+  }
+  return static_cast<uint32_t>(most);
 }
 
 }  // namespace ml

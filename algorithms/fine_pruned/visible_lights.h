@@ -25,10 +25,14 @@ class VisibleLightList {
   // Entries that the lists of all tiles have at most: the tiles of every ball's box. Not less than what the
   // device finds but for rounding at the edge of a tile.
   uint64_t most_entries(const FrameInput& frame);
+  // The most of them in one tile, after most_entries().
+  uint32_t most_in_a_tile();
 
  private:
   VisibleLights visible_;
   std::vector<LightBox> boxes_;
+  uint32_t columns_ = 0, rows_ = 0;  // of tiles
+  std::vector<int32_t> changes_;     // of the number of boxes from tile to tile
   std::vector<uint32_t> sorted_;
   gpu_data::VisibleHeader header_{};
 };

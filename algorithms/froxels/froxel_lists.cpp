@@ -91,6 +91,7 @@ void FroxelLists::scatter(Threads& threads) {
   reserve_padded(offsets_, grid_.cells() + size_t{1});
   const size_t parts = runs_.size();
   uint32_t running = 0;
+  longest_ = 0;
   for (uint32_t cell = 0; cell < grid_.cells(); ++cell) {
     offsets_[cell] = running;
     for (size_t p = 0; p < parts; ++p) {
@@ -98,6 +99,7 @@ void FroxelLists::scatter(Threads& threads) {
       running += next;
       next = running - next;
     }
+    longest_ = std::max(longest_, running - offsets_[cell]);
   }
   offsets_[grid_.cells()] = running;
   threads.for_each(parts, [&](size_t p) {

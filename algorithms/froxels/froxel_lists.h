@@ -40,6 +40,8 @@ class FroxelLists {
   // Light indices.
   std::span<const uint32_t> entries() const { return std::span(list_).first(entries_); }
   uint64_t lights_in_frustum() const { return in_frustum_; }
+  // The most entries of one froxel.
+  uint32_t longest() const { return longest_; }
 
   // Order by depth only: the depths (m) that each light in a list reaches, by light index.
   std::span<const DepthReach> reach_of_light() const { return reaches_; }
@@ -72,6 +74,7 @@ class FroxelLists {
   std::vector<LightBox> boxes_;  // by place in visible_
   std::vector<uint32_t> offsets_, list_;
   size_t entries_ = 0;
+  uint32_t longest_ = 0;
   uint64_t in_frustum_ = 0;
 };
 

@@ -3,10 +3,10 @@
 //   case 0  every pixel of the subgroup walks a list: no node is looked at again
 //   case 1  every pixel of the subgroup walks the same tree: its nodes are copied to shared memory
 //   case 2  anything else
-#include "algorithms/trees/tree_walk.glsl"
-
 layout(constant_id = 16) const bool LIST_CASE = false;
 layout(constant_id = 17) const bool SHARED_TREE = false;
+layout(constant_id = 18) const bool HAS_TREES = true;
+#include "algorithms/trees/tree_walk.glsl"
 
 #ifndef FORWARD  // fragments have no workgroup
 // Nodes of all subgroups of the workgroup together: 8 KiB, the share of one is what it can copy.
@@ -47,6 +47,7 @@ bool light_next_shared(inout LightCursor cursor, out uint light, out float weigh
 
 // Which case the subgroup is in; brings the cursor into the form that the case's function wants.
 uint cursor_case(inout LightCursor cursor) {
+  if (!HAS_TREES) return 0u;
   const uint nodes = cursor.end - cursor.node;
   if (LIST_CASE && subgroupAll(nodes <= 1u)) {
     if (nodes == 1u) tree_step(cursor, tree_nodes[cursor.node]);

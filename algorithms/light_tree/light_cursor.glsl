@@ -1,4 +1,5 @@
 // The tree of the pixel's tile.
+layout(constant_id = 16) const bool HAS_TREES = true;
 #include "algorithms/trees/tree_walk.glsl"
 
 uint light_cell(SurfacePoint point) {

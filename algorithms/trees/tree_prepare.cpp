@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -30,6 +31,7 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
   {
     auto span = spans.span("build");
     forest_.build(lists_, trees_, *frame.threads);
+    classify_tiles();
   }
   const uint64_t node_bytes = forest_.nodes() * sizeof(gpu_data::TreeNode);
   if (node_bytes > memory.limit())
@@ -55,6 +57,26 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
   counters_.list_bytes = cells.size_bytes() + node_bytes + entries.size_bytes();
   counters_.list_cells = forest_.list_cells();
   counters_.tree_cells = forest_.tree_cells();
+}
+
+void TreePrepare::classify_tiles() {
+  const uint32_t tiles = lists_.grid().tiles();
+  class_of_tile_.assign(tiles, 0);
+  const auto cells = forest_.cells();
+  for (size_t first = 0; first < cells.size(); first += tiles)
+    for (uint32_t tile = 0; tile < tiles; ++tile) {
+      const uint32_t end = cells[first + tile].end;
+      class_of_tile_[tile] |= static_cast<uint8_t>(end != 0 && (end & ML_TREE_CELL_LIST) == 0);
+    }
+}
+
+TileClasses TreePrepare::tile_classes() const {
+  return {1, lists_.grid().tile, lists_.grid().columns, class_of_tile_};
+}
+
+uint64_t TreePrepare::longest_walk() const {
+  // A tree's nodes are fewer than twice its leaves, and padding may double those.
+  return lists_.longest() + std::min<uint64_t>(4 * lists_.longest(), 2 * ML_TREE_MAX_LEAVES);
 }
 
 std::vector<ParameterInfo> tree_parameters() {

@@ -17,15 +17,22 @@ class TreePrepare {
   // The upload slots, as tree_walk.glsl names them.
   static std::vector<std::string> buffers() { return {"Grid", "TreeCells", "TreeNodes", "Indices"}; }
 
+  // Of the frame that was prepared last (Algorithm).
+  uint64_t longest_walk() const;
+  TileClasses tile_classes() const;
+
   const FroxelLists& lists() const { return lists_; }
   const Forest& forest() const { return forest_; }
 
  private:
+  void classify_tiles();
+
   std::string owner_;
   FroxelSettings froxels_;
   ForestSettings trees_;
   FroxelLists lists_;
   Forest forest_;
+  std::vector<uint8_t> class_of_tile_;
   PrepareCounters counters_;
 };
 

@@ -1,5 +1,6 @@
 // The stackless walk through a tile's or froxel's tree (Tiled Light Trees, listing 3): strictly forwards, to the next
 // node where the pixel's depth is inside, over all that is below where it is not.
+// Before it comes the constant HAS_TREES: false where all cells are lists that stand in the cell, which need no walk.
 #ifndef ML_TREE_WALK_GLSL
 #define ML_TREE_WALK_GLSL
 #include "algorithms/trees/tree_node.h"
@@ -27,7 +28,7 @@ struct LightCursor {
 // `counted`: the pixel itself walks the tree, and does not only help.
 LightCursor cell_begin(uint cell, float depth, bool counted) {
   const TreeCell place = tree_cells[cell];
-  const bool list = (place.end & ML_TREE_CELL_LIST) != 0u;
+  const bool list = !HAS_TREES || (place.end & ML_TREE_CELL_LIST) != 0u;
   // A list is at once what a tree's walk finds in a leaf.
   const uint node = list ? 0u : place.first, end = list ? 0u : place.end;
   const uint next = list ? place.first : 0u, last = list ? place.first + (place.end & ~ML_TREE_CELL_LIST) : 0u;
@@ -65,7 +66,7 @@ bool tree_next(inout LightCursor cursor, out uint light, out float weight) {
   weight = 1.0;
   light = no_light;
   if (cursor.next == cursor.last) {
-    if (cursor.node >= cursor.end) return false;
+    if (!HAS_TREES || cursor.node >= cursor.end) return false;
     tree_step(cursor, tree_nodes[cursor.node]);
     if (cursor.next == cursor.last) return true;
   }
@@ -84,7 +85,7 @@ bool light_next_run(inout LightCursor cursor, bool here, out uint first, out uin
   count = cursor.last - cursor.next;
   wanted = here;
   cursor.next = cursor.last;
-  if (count != 0u) return true;  // a list
+  if (!HAS_TREES || count != 0u) return count != 0u;  // a list
   while (cursor.node < cursor.end) {
     if (cursor.node - cursor.fetched_first >= gl_SubgroupSize) tree_fetch(cursor);
     const uint lane = cursor.node - cursor.fetched_first;

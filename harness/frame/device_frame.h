@@ -25,10 +25,11 @@ struct Effects {
   // The shading pass writes diffuse and specular light apart (shading.targets: split), not a property of the
   // content.
   bool split_targets = false;
-  // Shading loops fit for lists of more than `most_turns` lights (shaders/light_eval.glsl says why); costs
-  // compile time.
+  // Passes over all lights that are fit for more than `most_turns` of them (shaders/light_eval.glsl says why);
+  // costs compile time. Shading loops go by what a frame's pixels walk (ShadedAlgorithm).
   bool long_lists = true;
   static constexpr uint32_t most_turns = 28000;
+  bool long_walks = false;  // shading loops for long walks in every frame: tests ask for them
   std::vector<std::string> names() const;  // those that are on, "omni" first
   // A bit for each LightShape that shines as what it is; the others shine like omni lights.
   uint32_t shapes() const {

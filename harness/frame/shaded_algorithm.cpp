@@ -1,6 +1,9 @@
 #include "harness/frame/shaded_algorithm.h"
 
+#include <algorithm>
 #include <cstring>
+#include <tuple>
+#include <utility>
 
 #include "harness/base/error.h"
 #include "spirv/composite_comp.h"
@@ -8,19 +11,12 @@
 namespace ml {
 namespace {
 
-// Ids shared by every shading program (shaders/light_eval.glsl, shaders/shade.comp); an algorithm's own begin
-// at 16.
-std::vector<gpu::Constant> constants_of(const gpu::Device& device, const Effects& effects,
-                                        const Algorithm& algorithm, bool sampled) {
-  std::vector<gpu::Constant> constants = effects.constants();
-  constants.push_back({2, sampled});
-  constants.push_back({7, algorithm.walks_together() && device.limits().subgroup_exchange});
-  constants.push_back({8, effects.forward && !sampled});
-  constants.push_back({9, effects.split_targets && !sampled});
-  uint32_t id = 16;
-  for (uint32_t value : algorithm.shade_constants()) constants.push_back({id++, value});
-  return constants;
-}
+// Bytes and turns that a shading loop for short walks takes are worth little: this many lights and nodes fit
+// into the turns that some drivers allow (shaders/light_eval.glsl), twice for each when pixels walk alone.
+// Together, a subgroup walks the cells of all its pixels, and takes about three turns for two lights.
+constexpr uint64_t longest_short_walk = 28000, longest_short_walk_together = 40000;
+// Workgroups along one axis on the smallest devices.
+constexpr uint32_t most_groups = 65535;
 
 std::unique_ptr<Algorithm> created(gpu::Device& device, const AlgorithmEntry& entry,
                                    const Parameters& parameters, const Effects& effects) {
@@ -42,15 +38,15 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
       entry_(entry),
       algorithm_(created(device, entry, parameters, effects)),
       names_(algorithm_->buffers()),
-      blocks_(device, entry.info.name + ": sampled blocks"),
-      constants_(constants_of(device, effects, *algorithm_, false)),
-      timed_(device, algorithm_->shade_shaders().timed, entry.info.name + ": shade", constants_),
-      counting_(device, algorithm_->shade_shaders().counting, entry.info.name + ": shade, counting",
-                constants_) {
+      effects_(effects),
+      together_(algorithm_->walks_together() && device.limits().subgroup_exchange),
+      sampled_blocks_(device, entry.info.name + ": sampled blocks"),
+      class_blocks_(device, entry.info.name + ": blocks by class") {
   for (const std::string& name : names_) buffers_.emplace_back(device, entry.info.name + ": " + name);
   // Every buffer exists from the start, so that programs can bind what a frame left empty.
   for (gpu::UploadBuffer& buffer : buffers_) buffer.map(0);
-  blocks_.map(0);
+  sampled_blocks_.map(0);
+  class_blocks_.map(0);
   if (effects.split_targets) composite_.emplace(device, composite_comp, "composite");
   if (!effects.forward) return;
   if (!device.limits().fragment_stores)
@@ -58,12 +54,49 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
                       "' does not count in fragment shaders (fragmentStoresAndAtomics); "
                       "effects.forward=off lights them deferred");
   const ShadeShaders shaders = algorithm_->shade_shaders();
-  // Forward materials have their albedo at hand: their light goes to the result at once.
-  std::vector<gpu::Constant> constants = constants_;
-  std::erase_if(constants, [](const gpu::Constant& constant) { return constant.id == 9; });
+  // Forward materials have their albedo at hand: their light goes to the result at once. Pixels walk alone.
+  std::vector<gpu::Constant> constants = effects.constants();
+  uint32_t id = 16;
+  for (uint32_t value : algorithm_->shade_constants()) constants.push_back({id++, value});
   forward_timed_ = Level::forward_program(device, shaders.forward, entry.info.name + ": forward", constants);
   forward_counting_ = Level::forward_program(device, shaders.forward_counting,
                                              entry.info.name + ": forward, counting", constants);
+}
+
+// Ids shared by every shading program: shaders/light_eval.glsl, shaders/shade.comp; an algorithm's own begin
+// at 16.
+const gpu::ComputeProgram& ShadedAlgorithm::program(const Variant& variant) {
+  if (auto found = programs_.find(variant); found != programs_.end()) return found->second;
+  std::vector<gpu::Constant> constants = effects_.constants();
+  for (gpu::Constant& constant : constants)
+    if (constant.id == 3) constant.value = variant.long_walks;
+  constants.push_back({2, variant.block_list});
+  constants.push_back({7, together_});
+  constants.push_back({8, effects_.forward && !variant.sampled});
+  constants.push_back({9, effects_.split_targets && !variant.sampled});
+  uint32_t id = 16;
+  for (uint32_t value : algorithm_->shade_constants()) constants.push_back({id++, value});
+  for (uint32_t value : algorithm_->class_constants(variant.tile_class)) constants.push_back({id++, value});
+  const ShadeShaders shaders = algorithm_->shade_shaders();
+  return programs_
+      .emplace(std::piecewise_construct, std::forward_as_tuple(variant),
+               std::forward_as_tuple(device_, variant.counting ? shaders.counting : shaders.timed,
+                                     entry_.info.name + (variant.counting ? ": shade, counting" : ": shade"),
+                                     constants))
+      .first->second;
+}
+
+bool ShadedAlgorithm::walks_far(const DeviceFrame& frame, const FrameInput& input) const {
+  if (effects_.long_walks) return true;
+  uint64_t longest = algorithm_->longest_walk();
+  if (entry_.info.needs_contributing_lists) {
+    const std::vector<uint32_t>& counts = frame.contributing().count;
+    longest = counts.empty() ? 0 : std::ranges::max(counts);
+  } else if (longest == Algorithm::unknown_walk) {
+    longest = input.lights.count();
+  }
+  if (!together_) return longest > longest_short_walk;
+  return longest > longest_short_walk_together / std::clamp(device_.limits().subgroup_size, 1u, 16u);
 }
 
 std::span<std::byte> ShadedAlgorithm::map(uint32_t slot, size_t bytes) {
@@ -85,12 +118,51 @@ uint64_t ShadedAlgorithm::upload_bytes() const {
 
 void ShadedAlgorithm::prepare(const FrameInput& input, Spans& spans) {
   algorithm_->prepare(input, *this, spans);
+  auto span = spans.span("upload");
+  sort_blocks(input);
+}
+
+void ShadedAlgorithm::sort_blocks(const FrameInput& input) {
+  const TileClasses classes = algorithm_->tile_classes();
+  one_class_ = true;
+  only_class_ = classes.most;
+  if (classes.of_tile.empty()) return;
+  const uint32_t across = (input.view.resolution.x + 7) / 8, down = (input.view.resolution.y + 7) / 8;
+  block_ends_.assign(classes.most + size_t{1}, 0);
+  class_of_block_.resize(size_t{across} * down);
+  const auto rows = static_cast<uint32_t>(classes.of_tile.size() / classes.columns);
+  for (uint32_t y = 0; y < down; ++y) {
+    const uint32_t row0 = y * 8 / classes.tile, row1 = std::min((y * 8 + 7) / classes.tile, rows - 1);
+    for (uint32_t x = 0; x < across; ++x) {
+      // A block may lie in several tiles: the highest class can do what all need.
+      const uint32_t column0 = x * 8 / classes.tile,
+                     column1 = std::min((x * 8 + 7) / classes.tile, classes.columns - 1);
+      uint8_t highest = 0;
+      for (uint32_t row = row0; row <= row1; ++row)
+        for (uint32_t column = column0; column <= column1; ++column)
+          highest = std::max(highest, classes.of_tile[row * classes.columns + column]);
+      class_of_block_[y * across + x] = highest;
+      ++block_ends_[highest];
+    }
+  }
+  for (uint32_t c = 0; c <= classes.most; ++c)
+    if (block_ends_[c] == class_of_block_.size()) {
+      only_class_ = c;
+      return;
+    }
+  one_class_ = false;
+  uint32_t begin = 0;
+  for (uint32_t& end : block_ends_) begin += std::exchange(end, begin);
+  auto* blocks =
+      reinterpret_cast<glm::uvec2*>(class_blocks_.map(class_of_block_.size() * sizeof(glm::uvec2)).data());
+  for (uint32_t y = 0; y < down; ++y)
+    for (uint32_t x = 0; x < across; ++x) blocks[block_ends_[class_of_block_[y * across + x]]++] = {x, y};
 }
 
 gpu::Bindings ShadedAlgorithm::bindings(const DeviceFrame& frame) const {
   gpu::Bindings list = frame.bindings();
   for (size_t slot = 0; slot < names_.size(); ++slot) list.emplace_back(names_[slot], buffers_[slot]);
-  list.emplace_back("Blocks", blocks_);
+  list.emplace_back("Blocks", class_blocks_);
   return list;
 }
 
@@ -103,12 +175,13 @@ gpu::Bindings ShadedAlgorithm::cull(gpu::Commands& commands, const DeviceFrame& 
 }
 
 void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input,
-                             const gpu::ComputeProgram& program, const gpu::RasterProgram* forward) {
+                             bool counting, const gpu::RasterProgram* forward) {
   bool twins = false;
   for (const gpu::UploadBuffer& buffer : buffers_) twins |= buffer.has_twin();
   if (twins) {
     auto span = commands.span("transfer");
     for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
+    if (!one_class_) commands.transfer(class_blocks_);
   }
   const gpu::Bindings list = cull(commands, frame, input);
   const uint32_t across = (input.view.resolution.x + 7) / 8, down = (input.view.resolution.y + 7) / 8;
@@ -119,8 +192,14 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
       std::erase_if(into, [](const gpu::Binding& b) { return b.name == "Result"; });
       into.emplace_back("Result", *targets.diffuse);
     }
+    Variant variant{.counting = counting, .long_walks = walks_far(frame, input), .tile_class = only_class_};
+    variant.block_list = !one_class_;
     auto span = commands.span("shade");
-    commands.dispatch(program, into, std::span<const std::byte>{}, across, down);
+    if (one_class_) commands.dispatch(program(variant), into, uint32_t{0}, across, down);
+    for (uint32_t c = 0, first = 0; !one_class_ && c < block_ends_.size(); ++c)
+      for (variant.tile_class = c; first < block_ends_[c];
+           first += std::min(most_groups, block_ends_[c] - first))
+        commands.dispatch(program(variant), into, first, std::min(most_groups, block_ends_[c] - first));
   }
   if (composite_) {
     auto span = commands.span("composite");
@@ -136,7 +215,7 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
 gpu::SubmissionTimes ShadedAlgorithm::shade(DeviceFrame& frame, const FrameInput& input, gpu::Timing timing) {
   gpu::Commands& commands = frame.commands();
   commands.begin(timing);
-  record(commands, frame, input, timed_, forward_timed_ ? &*forward_timed_ : nullptr);
+  record(commands, frame, input, false, forward_timed_ ? &*forward_timed_ : nullptr);
   return commands.submit();
 }
 
@@ -144,7 +223,7 @@ void ShadedAlgorithm::count(DeviceFrame& frame, const FrameInput& input) {
   frame.counters();  // makes them part of the frame's bindings
   gpu::Commands& commands = frame.commands();
   commands.begin(gpu::Timing::none);
-  record(commands, frame, input, counting_, forward_counting_ ? &*forward_counting_ : nullptr);
+  record(commands, frame, input, true, forward_counting_ ? &*forward_counting_ : nullptr);
   commands.submit();
   algorithm_->read_counters(commands);
 }
@@ -152,18 +231,21 @@ void ShadedAlgorithm::count(DeviceFrame& frame, const FrameInput& input) {
 void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input,
                                    std::span<const glm::uvec2> blocks) {
   frame.counters();
-  if (!sampled_)
-    sampled_ = std::make_unique<gpu::ComputeProgram>(
-        device_, algorithm_->shade_shaders().counting, entry_.info.name + ": shade, sampled",
-        constants_of(device_, frame.effects(), *algorithm_, true));
-  std::span<std::byte> memory = blocks_.map(blocks.size_bytes());
+  std::span<std::byte> memory = sampled_blocks_.map(blocks.size_bytes());
   if (!blocks.empty()) std::memcpy(memory.data(), blocks.data(), blocks.size_bytes());
   gpu::Commands& commands = frame.commands();
   commands.begin(gpu::Timing::none);
   for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
-  commands.transfer(blocks_);
-  commands.dispatch(*sampled_, cull(commands, frame, input), std::span<const std::byte>{},
-                    static_cast<uint32_t>(blocks.size()));
+  commands.transfer(sampled_blocks_);
+  gpu::Bindings list = cull(commands, frame, input);
+  std::erase_if(list, [](const gpu::Binding& binding) { return binding.name == "Blocks"; });
+  list.emplace_back("Blocks", sampled_blocks_);
+  const Variant variant{.counting = true,
+                        .sampled = true,
+                        .block_list = true,
+                        .long_walks = walks_far(frame, input),
+                        .tile_class = algorithm_->tile_classes().most};
+  commands.dispatch(program(variant), list, uint32_t{0}, static_cast<uint32_t>(blocks.size()));
   commands.submit();
 }
 

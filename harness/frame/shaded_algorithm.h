@@ -2,8 +2,10 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "algorithms/algorithm.h"
 #include "harness/frame/device_frame.h"
@@ -24,9 +26,8 @@ class ShadedAlgorithm final : private UploadMemory {
   // GPU, counting variant: fills the frame's counters too.
   void count(DeviceFrame& frame, const FrameInput& input);
   // The same for only the 8x8 blocks of the list, for sampled references: result and counters of other blocks
-  // keep what they held. All is lit deferred and into one target, a reference for the
-  // other ways. At most 65,535 blocks
-  // (workgroups along one axis on the smallest devices).
+  // keep what they held. All is lit deferred and into one target, a reference for the other ways. At most
+  // 65,535 blocks (workgroups along one axis on the smallest devices).
   void count_blocks(DeviceFrame& frame, const FrameInput& input, std::span<const glm::uvec2> blocks);
 
   // A hash of every byte that the last prepare() gave to the GPU.
@@ -43,20 +44,42 @@ class ShadedAlgorithm final : private UploadMemory {
   gpu::Bindings bindings(const DeviceFrame& frame) const;
   // Records list building; what the shading pass binds.
   gpu::Bindings cull(gpu::Commands& commands, const DeviceFrame& frame, const FrameInput& input);
-  void record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input,
-              const gpu::ComputeProgram& program, const gpu::RasterProgram* forward);
+  void record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input, bool counting,
+              const gpu::RasterProgram* forward);
+
+  // What a program of the shading loop is compiled for.
+  struct Variant {
+    bool counting = false;
+    bool sampled = false;     // the deferred reference of count_blocks()
+    bool block_list = false;  // blocks from a list, not the whole picture
+    bool long_walks = false;
+    uint32_t tile_class = 0;
+    auto operator<=>(const Variant&) const = default;
+  };
+  // Made when first asked for: throws SystemError when the device refuses it.
+  const gpu::ComputeProgram& program(const Variant& variant);
+  bool walks_far(const DeviceFrame& frame, const FrameInput& input) const;
+  // Sorts the picture's 8x8 blocks by the class of the tiles that they lie in.
+  void sort_blocks(const FrameInput& input);
 
   gpu::Device& device_;
   const AlgorithmEntry& entry_;
   std::unique_ptr<Algorithm> algorithm_;
   std::vector<std::string> names_;
   std::deque<gpu::UploadBuffer> buffers_;
-  gpu::UploadBuffer blocks_;
-  std::vector<gpu::Constant> constants_;
-  gpu::ComputeProgram timed_, counting_;
+  Effects effects_;
+  bool together_;
+  gpu::UploadBuffer sampled_blocks_;
+  // The blocks of each class one after the other; class c's are [block_ends_[c - 1], block_ends_[c]). Not in
+  // use while all blocks are of one class.
+  gpu::UploadBuffer class_blocks_;
+  std::vector<uint8_t> class_of_block_;
+  std::vector<uint32_t> block_ends_;
+  uint32_t only_class_ = 0;
+  bool one_class_ = true;
+  std::map<Variant, gpu::ComputeProgram> programs_;
   std::optional<gpu::ComputeProgram> composite_;                        // with split targets
   std::optional<gpu::RasterProgram> forward_timed_, forward_counting_;  // with the effect
-  std::unique_ptr<gpu::ComputeProgram> sampled_;                        // made when first asked for
 };
 
 }  // namespace ml

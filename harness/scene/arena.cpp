@@ -21,9 +21,9 @@ ArenaMaterials add_materials(MeshBuilder& mesh) {
   materials.bark = add("bark", {0.27f, 0.19f, 0.12f}, 0, 0.9f);
   materials.wood[0] = add("dark wood", {0.32f, 0.21f, 0.12f}, 0, 0.7f);
   materials.wood[1] = add("light wood", {0.58f, 0.43f, 0.26f}, 0, 0.7f);
-  materials.cloth[0] = add("white cloth", {0.72f, 0.7f, 0.64f}, 0, 0.95f, true);
-  materials.cloth[1] = add("blue cloth", {0.16f, 0.26f, 0.5f}, 0, 0.95f, true);
-  materials.cloth[2] = add("red cloth", {0.55f, 0.14f, 0.12f}, 0, 0.95f, true);
+  materials.cloth[0] = add("white cloth", {0.72f, 0.7f, 0.64f}, 0, 0.95f, Finish::double_sided);
+  materials.cloth[1] = add("blue cloth", {0.16f, 0.26f, 0.5f}, 0, 0.95f, Finish::double_sided);
+  materials.cloth[2] = add("red cloth", {0.55f, 0.14f, 0.12f}, 0, 0.95f, Finish::double_sided);
   materials.leaves[0] = add("leaves", {0.15f, 0.32f, 0.09f}, 0, 0.8f);
   materials.leaves[1] = add("yellow leaves", {0.4f, 0.4f, 0.11f}, 0, 0.8f);
   return materials;

@@ -15,9 +15,9 @@ GroveMaterials add_materials(MeshBuilder& mesh) {
   materials.iron = add("iron", {0.3f, 0.3f, 0.31f}, 1, 0.4f);
   materials.lamp = add("lamp", {0.9f, 0.85f, 0.7f}, 0, 0.2f);
   materials.bark = add("bark", {0.25f, 0.18f, 0.12f}, 0, 0.9f);
-  materials.leaves[0] = add("leaves", {0.17f, 0.33f, 0.08f}, 0, 0.6f, true);
-  materials.leaves[1] = add("yellow leaves", {0.42f, 0.38f, 0.09f}, 0, 0.6f, true);
-  materials.leaves[2] = add("red leaves", {0.45f, 0.16f, 0.06f}, 0, 0.6f, true);
+  materials.leaves[0] = add("leaves", {0.17f, 0.33f, 0.08f}, 0, 0.6f, Finish::double_sided);
+  materials.leaves[1] = add("yellow leaves", {0.42f, 0.38f, 0.09f}, 0, 0.6f, Finish::double_sided);
+  materials.leaves[2] = add("red leaves", {0.45f, 0.16f, 0.06f}, 0, 0.6f, Finish::double_sided);
   return materials;
 }
 

@@ -17,8 +17,8 @@ MuseumMaterials add_materials(MeshBuilder& mesh) {
   materials.beam = add("beam", {0.33f, 0.22f, 0.13f}, 0, 0.7f);
   materials.trim = add("trim", {0.78f, 0.75f, 0.68f}, 0, 0.8f);
   materials.stone = add("stone", {0.56f, 0.53f, 0.48f}, 0, 0.7f);
-  materials.gilt = add("gilt", {0.83f, 0.64f, 0.29f}, 1, 0.3f, true);
-  materials.bronze = add("bronze", {0.51f, 0.36f, 0.22f}, 1, 0.4f, true);
+  materials.gilt = add("gilt", {0.83f, 0.64f, 0.29f}, 1, 0.3f, Finish::forward);
+  materials.bronze = add("bronze", {0.51f, 0.36f, 0.22f}, 1, 0.4f, Finish::forward);
   materials.wood = add("wood", {0.25f, 0.15f, 0.09f}, 0, 0.55f);
   materials.paint[0] = add("white paint", {0.77f, 0.75f, 0.71f}, 0, 0.9f);
   materials.paint[1] = add("green paint", {0.3f, 0.42f, 0.34f}, 0, 0.9f);
@@ -30,9 +30,9 @@ MuseumMaterials add_materials(MeshBuilder& mesh) {
   materials.canvas[3] = add("canvas 3", {0.24f, 0.34f, 0.18f}, 0, 0.6f);
   materials.canvas[4] = add("canvas 4", {0.7f, 0.66f, 0.58f}, 0, 0.6f);
   materials.canvas[5] = add("canvas 5", {0.12f, 0.1f, 0.1f}, 0, 0.6f);
-  materials.glaze[0] = add("white glaze", {0.8f, 0.82f, 0.84f}, 0, 0.15f, true);
-  materials.glaze[1] = add("blue glaze", {0.1f, 0.2f, 0.5f}, 0, 0.15f, true);
-  materials.glaze[2] = add("red glaze", {0.5f, 0.1f, 0.08f}, 0, 0.2f, true);
+  materials.glaze[0] = add("white glaze", {0.8f, 0.82f, 0.84f}, 0, 0.15f, Finish::forward);
+  materials.glaze[1] = add("blue glaze", {0.1f, 0.2f, 0.5f}, 0, 0.15f, Finish::forward);
+  materials.glaze[2] = add("red glaze", {0.5f, 0.1f, 0.08f}, 0, 0.2f, Finish::forward);
   return materials;
 }
 

@@ -326,7 +326,12 @@ Light box(glm::dvec3 position, glm::vec3 direction, glm::vec3 side, glm::vec3 ha
 }
 
 Effects all_shapes(bool long_lists) {
-  return {.spots = true, .capsules = true, .wedges = true, .boxes = true, .long_lists = long_lists};
+  return {.spots = true,
+          .capsules = true,
+          .wedges = true,
+          .boxes = true,
+          .long_lists = long_lists,
+          .long_walks = long_lists};
 }
 
 std::vector<Light> mixed_shapes(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest,
