@@ -117,14 +117,14 @@ def cross(a, b):
 
 
 class Light:
-    __slots__ = ("x", "y", "z", "radius", "spot", "direction", "scale", "offset", "cos_outer", "side", "half_length", "box", "reach")
+    __slots__ = ("x", "y", "z", "radius", "spot", "direction", "limit", "side", "half_length", "box", "reach")
 
     def __init__(self, row):
         self.x, self.y, self.z, self.radius = (float(value) for value in row[1:5])
         shape = row[8]
         self.spot = {"omni": False, "spot": True, "capsule": False, "wedge": True, "box": False}[shape]
         self.direction = tuple(float(value) for value in row[9:12])
-        self.scale, self.offset, self.cos_outer = (float(value) for value in row[12:15])
+        self.limit = float(row[13])  # 1 - cos of the cone's outer angle
         self.side = tuple(float(value) for value in row[15:18])
         self.half_length = float(row[18])
         self.box = None
@@ -209,9 +209,8 @@ def count(point, normal, lights):
         inside, edge = inside and facing > 0, edge or facing <= margin
         if light.spot:
             cosine = -(dx * light.direction[0] + dy * light.direction[1] + dz * light.direction[2])
-            ramp = cosine * light.scale + light.offset
-            in_cone = cosine > light.cos_outer and ramp > 0
-            at_cone = abs(cosine - light.cos_outer) <= margin or abs(ramp) <= margin * abs(light.scale)
+            within = light.limit - (1 - cosine)
+            in_cone, at_cone = within > 0, abs(within) <= margin
             if not in_cone and not at_cone:
                 continue
             inside, edge = inside and in_cone, edge or at_cone

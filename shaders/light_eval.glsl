@@ -116,10 +116,14 @@ bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
   result.strength = window * window / max(distance_squared, REAL(min_distance_squared));
   if (wedge || is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT)) {
     LightExtra extra = extras[id];
-    precise REAL along = -(result.direction.x * REAL(extra.direction.x) + result.direction.y * REAL(extra.direction.y) +
-                           result.direction.z * REAL(extra.direction.z));
-    precise REAL cone = clamp(along * REAL(extra.cone_scale) + REAL(extra.cone_offset), REAL(0), REAL(1));
-    if (!(along > REAL(extra.cos_outer)) || !(cone > REAL(0))) return false;
+    // 1 - cos as half the square of the chord between the two directions. The rounding of their lengths is along the chord's normal and
+    // falls away; a difference of cosines would leave few digits where a narrow cone's edge is all that lights a pixel.
+    precise REAL chord_x = result.direction.x + REAL(extra.direction.x);
+    precise REAL chord_y = result.direction.y + REAL(extra.direction.y);
+    precise REAL chord_z = result.direction.z + REAL(extra.direction.z);
+    precise REAL aside = REAL(0.5) * (chord_x * chord_x + chord_y * chord_y + chord_z * chord_z);
+    precise REAL cone = min((REAL(extra.cone_limit) - aside) * REAL(extra.cone_scale), REAL(1));
+    if (!(cone > REAL(0))) return false;
     result.strength *= cone * cone;
   }
   return true;

@@ -86,8 +86,7 @@ double oracle_box_falloff(const glm::dvec3& place, const glm::dvec3& half_extent
 
 double oracle_cone(const OracleLight& light, double cosine) {
   if (!light.spot) return 1;
-  if (!(cosine > light.cos_outer)) return 0;
-  double factor = std::clamp(cosine * light.cone_scale + light.cone_offset, 0.0, 1.0);
+  double factor = std::clamp((light.cone_limit - (1 - cosine)) * light.cone_scale, 0.0, 1.0);
   return factor * factor;
 }
 
@@ -130,9 +129,7 @@ OracleAnswer oracle_shade(const SurfacePoint& point, std::span<const OracleLight
     double cone = oracle_cone(light, cosine);
     Condition in_reach = sight.in_reach;
     Condition faces{facing > 0, std::abs(facing) <= sight.blur};
-    double ramp = cosine * light.cone_scale + light.cone_offset;
-    Condition in_cone{cone > 0, light.spot && (std::abs(cosine - light.cos_outer) <= sight.blur ||
-                                               std::abs(ramp) <= sight.blur * std::abs(light.cone_scale))};
+    Condition in_cone{cone > 0, light.spot && std::abs(light.cone_limit - (1 - cosine)) <= sight.blur};
 
     bool contributes = in_reach.holds && faces.holds && in_cone.holds;
     bool possible =

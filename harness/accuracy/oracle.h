@@ -38,7 +38,7 @@ struct OracleLight {
   glm::dvec3 intensity{1};
   bool spot = false;
   glm::dvec3 direction{0, -1, 0};
-  double cone_scale = 0, cone_offset = 1, cos_outer = -2;
+  double cone_scale = 1, cone_limit = 4;  // cone_limit: 1 - cos of the outer angle
   // The source is the segment position +- half_length * side.
   glm::dvec3 side{1, 0, 0};
   double half_length = 0;  // m
@@ -68,7 +68,7 @@ double oracle_falloff(double distance, double radius);
 // at and outside its faces and for an extent of 0.
 double oracle_box_falloff(const glm::dvec3& place, const glm::dvec3& half_extents);
 
-// clamp(cosine * scale + offset, 0, 1)^2, 0 unless cosine > cos_outer; 1 for lights that are no spots.
+// clamp((limit - (1 - cosine)) * scale, 0, 1)^2; 1 for lights that are no spots.
 // `cosine`: between the spot's axis and the direction from the light to the point.
 double oracle_cone(const OracleLight& light, double cosine);
 

@@ -36,8 +36,9 @@ void set_shape(LightShape shape, const gpu_data::LightExtra& extra, OracleLight&
   if (!has_cone(shape)) return;
   light.spot = true;
   light.cone_scale = static_cast<double>(extra.cone_scale);
-  light.cone_offset = static_cast<double>(extra.cone_offset);
-  light.cos_outer = static_cast<double>(extra.cos_outer);
+  light.cone_limit = static_cast<double>(extra.cone_limit);
+  // Unit to the last bit only in double.
+  light.direction = glm::normalize(light.direction);
 }
 
 }  // namespace

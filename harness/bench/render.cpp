@@ -24,7 +24,7 @@ void set_extra(LightShape shape, const gpu_data::LightExtra& extra, LightRow& ro
   }
   row.half_length = extra.half_length;
   row.cone_scale = extra.cone_scale;
-  row.cone_offset = extra.cone_offset;
+  row.cone_limit = extra.cone_limit;
   row.cos_outer = extra.cos_outer;
 }
 

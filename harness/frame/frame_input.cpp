@@ -29,26 +29,27 @@ float bounding_radius(const Light& light) {
 }
 
 void set_cone(const Light& light, gpu_data::LightExtra& extra) {
-  extra.direction = light.direction;
+  extra.direction = glm::normalize(glm::dvec3(light.direction));
   double inner = std::cos(static_cast<double>(light.inner_angle)),
          outer = std::cos(static_cast<double>(light.outer_angle));
   // A cone without a soft edge still needs a finite slope.
   double scale = 1.0 / std::max(inner - outer, 1e-6);
   extra.cone_scale = static_cast<float>(scale);
-  extra.cone_offset = static_cast<float>(-outer * scale);
+  const double chord = 2 * std::sin(0.5 * static_cast<double>(light.outer_angle));
+  extra.cone_limit = static_cast<float>(0.5 * chord * chord);
   extra.cos_outer = static_cast<float>(outer);
 }
 
 gpu_data::LightExtra extra_of(const Light& light) {
   gpu_data::LightExtra extra{};
-  extra.cone_offset = 1;
+  extra.cone_scale = 1;
+  extra.cone_limit = 4;
   extra.cos_outer = -2;
   extra.bound_radius = bounding_radius(light);
   if (has_cone(light.shape)) set_cone(light, extra);
   if (has_segment(light.shape)) extra.half_length = light.half_length;
   if (light.shape == LightShape::omni || light.shape == LightShape::spot) return extra;
-  // Accepted axes are unit and at right angles to about 1e-3: here to the last bit but one. The directions of
-  // spots and wedges stay as they are.
+  // Accepted axes are unit and at right angles to about 1e-3: here to the last bit but one.
   glm::dvec3 side = glm::normalize(glm::dvec3(light.side)), front(light.direction);
   if (light.shape == LightShape::capsule) extra.side = side;
   if (light.shape != LightShape::wedge && light.shape != LightShape::box) return extra;
@@ -58,7 +59,7 @@ gpu_data::LightExtra extra_of(const Light& light) {
     extra.direction = front;
     extra.half_length = light.half_extents.x;
     extra.cone_scale = light.half_extents.y;
-    extra.cone_offset = light.half_extents.z;
+    extra.cone_limit = light.half_extents.z;
   }
   return extra;
 }

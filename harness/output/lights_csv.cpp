@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view header =
     "index,x [m],y [m],z [m],radius [m],intensity_r [W/sr],intensity_g [W/sr],intensity_b [W/sr],shape,"
-    "direction_x,direction_y,direction_z,cone_scale,cone_offset,cos_outer,"
+    "direction_x,direction_y,direction_z,cone_scale,cone_limit,cos_outer,"
     "side_x,side_y,side_z,half_length [m],half_extent_side [m],half_extent_up [m],half_extent_direction [m]";
 constexpr size_t columns = 22, shape_column = 8;
 constexpr std::array<std::string_view, 5> shapes{"omni", "spot", "capsule", "wedge", "box"};
@@ -36,7 +36,7 @@ std::array<float*, columns> numbers_of(LightRow& row) {
           &row.direction[1],
           &row.direction[2],
           &row.cone_scale,
-          &row.cone_offset,
+          &row.cone_limit,
           &row.cos_outer,
           &row.side[0],
           &row.side[1],

@@ -9,16 +9,16 @@ namespace ml {
 
 // A light as the GPU has it: single precision, camera-relative (world axes).
 struct LightRow {
-  float position[3] = {0, 0, 0};          // m
-  float radius = 1;                       // m, of the window; boxes: half the diagonal
-  float intensity[3] = {1, 1, 1};         // W/sr
-  std::string shape = "omni";             // or "spot", "capsule", "wedge", "box"
-  float direction[3] = {0, 0, 0};         // unit, away from the light: spot, wedge, box; else 0
-  float cone_scale = 0, cone_offset = 1;  // cone factor = clamp(cos * scale + offset, 0, 1)^2
-  float cos_outer = -2;                   // contributes only where cos > cos_outer
-  float side[3] = {0, 0, 0};              // unit: capsule, wedge, box; else 0
-  float half_length = 0;                  // m: the source is the segment position +- half_length * side
-  float half_extents[3] = {0, 0, 0};      // m: box, along side, cross(direction, side), direction; else 0
+  float position[3] = {0, 0, 0};         // m
+  float radius = 1;                      // m, of the window; boxes: half the diagonal
+  float intensity[3] = {1, 1, 1};        // W/sr
+  std::string shape = "omni";            // or "spot", "capsule", "wedge", "box"
+  float direction[3] = {0, 0, 0};        // unit, away from the light: spot, wedge, box; else 0
+  float cone_scale = 1, cone_limit = 4;  // cone factor = clamp((limit - (1 - cos)) * scale, 0, 1)^2
+  float cos_outer = -2;                  // 1 - cone_limit, rounded
+  float side[3] = {0, 0, 0};             // unit: capsule, wedge, box; else 0
+  float half_length = 0;                 // m: the source is the segment position +- half_length * side
+  float half_extents[3] = {0, 0, 0};     // m: box, along side, cross(direction, side), direction; else 0
 };
 
 // Line 1 names columns and units; then one line a light, `index` counting from 0. Floats have 9 significant

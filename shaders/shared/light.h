@@ -15,14 +15,16 @@ struct LightCore {
 ML_SIZE(LightCore, 32);
 
 // The fields that a shape has no use for hold what changes nothing: half_length 0, a cone factor of 1. Boxes
-// keep their half extents in half_length, cone_scale and cone_offset: read them through box_half_extents().
+// keep their half extents in half_length, cone_scale and cone_limit: read them through box_half_extents().
 struct LightExtra {
-  vec3 direction;      // unit, away from the light: spots, wedges, boxes; else 0
-  float half_length;   // m, of the source segment: capsules, wedges; else 0 | boxes: half extent along `side`
-  vec3 side;           // unit, across `direction`: capsules, wedges, boxes; else 0
-  float cone_scale;    // cone factor = clamp(cos * scale + offset, 0, 1) squared | boxes: along box_up()
-  float cone_offset;   // | boxes: along `direction`
-  float cos_outer;     // contributes only where cos > cos_outer
+  vec3 direction;     // unit, away from the light: spots, wedges, boxes; else 0
+  float half_length;  // m, of the source segment: capsules, wedges; else 0 | boxes: half extent along `side`
+  vec3 side;          // unit, across `direction`: capsules, wedges, boxes; else 0
+  // Cone factor = clamp((limit - (1 - cos)) * scale, 0, 1) squared, cos of the angle off `direction`: as 1 -
+  // cos narrow cones keep their digits.
+  float cone_scale;    // | boxes: along box_up()
+  float cone_limit;    // 1 - cos of the outer angle | boxes: along `direction`
+  float cos_outer;     // for bounds, which widen it by what rounding may take
   float bound_radius;  // m: no contribution beyond it from `position`, whatever the shape
   float spare;         // 0
 };
@@ -37,7 +39,7 @@ ML_SIZE(LightExtra, 48);
 
 // m, along side, box_up() and direction.
 ML_FUNCTION vec3 box_half_extents(LightExtra extra) {
-  return vec3(extra.half_length, extra.cone_scale, extra.cone_offset);
+  return vec3(extra.half_length, extra.cone_scale, extra.cone_limit);
 }
 
 // The third axis of a box: side, box_up() and direction are right-handed.

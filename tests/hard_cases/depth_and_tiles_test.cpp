@@ -1,4 +1,6 @@
 // Depth ranges of tiles, the sky, and cell boundaries.
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "harness/bench/case_pictures.h"
@@ -8,6 +10,39 @@ namespace ml::test {
 namespace {
 
 constexpr uint32_t width = 80, height = 45;
+
+TEST_F(HardCases, Case09_DepthIsAsGoodFarAwayAsNear) {
+  // Walls from 1 m to 4 km, side by side. Depth is stored reversed: 1 - near/depth, the standard way, would
+  // know the last wall's to some kilometres when near is 1 mm.
+  constexpr uint32_t w = 100, h = 56;
+  const double distances[] = {1, 10, 100, 1000, 4000};
+  HandMadeScene made;
+  std::vector<Light> lights;
+  for (int i = 0; i < 5; ++i) {
+    const double far = distances[i], left = (0.4 * i - 0.98) * far;
+    const auto size = static_cast<float>(far);
+    made.rectangle({static_cast<float>(left), -0.5f * size, -size}, {0.36f * size, 0, 0}, {0, size, 0});
+    for (double up : {-0.3, 0.0, 0.3})
+      lights.push_back(omni({left + 0.2 * far, up * far, -0.9 * far}, 0.3f * size, size * size));
+  }
+  Exactness check(made.finish(), w, h);
+  for (float near : {0.001f, 0.1f, 0.9f}) {
+    SCOPED_TRACE(near);
+    const Seen seen = check.expect_exact(camera_at({0, 0, 0}, {0, 0, -1}, w, h, near, 5000), lights);
+    const std::vector<float> position = check.frame().read_aov(DeviceFrame::Aov::position);
+    std::array<uint32_t, 5> pixels{};
+    for (size_t pixel = 0; pixel < size_t{w} * h; ++pixel) {
+      if (!seen.lit[pixel]) continue;
+      const double depth = static_cast<double>(position[4 * pixel + 3]);
+      const auto wall = std::ranges::min_element(
+          distances, {}, [&](double distance) { return std::abs(std::log(depth / distance)); });
+      EXPECT_NEAR(depth, *wall, 5e-7 * *wall) << "pixel " << pixel;
+      EXPECT_NEAR(static_cast<double>(position[4 * pixel + 2]), -*wall, 5e-7 * *wall) << "pixel " << pixel;
+      ++pixels[static_cast<size_t>(wall - distances)];
+    }
+    for (uint32_t number : pixels) EXPECT_GT(number, 300u);
+  }
+}
 
 TEST_F(HardCases, Case27_TilesOfOneDepth) {
   // A wall that faces the camera: every pixel of every tile has the same depth.

@@ -164,5 +164,20 @@ TEST_F(HardCases, Case26_IdenticalDepthsInAnyOrder) {
   EXPECT_GT(seen.contributing(), seen.lit_pixels());
 }
 
+TEST_F(HardCases, NarrowConesRimsLightPixelsAlone) {
+  // A rim is faint, but nothing else shines there: a cone factor that is a difference of cosines has few
+  // right digits.
+  constexpr uint32_t wide = 120, high = 68;
+  Exactness check(floor_at({0, 0, 0}, 20), wide, high);
+  std::vector<Light> lights;
+  for (float outer : {1.0f, 2.0f, 4.0f, 8.0f, 12.0f}) {
+    const auto place = static_cast<double>(outer);
+    lights.push_back(spot({0.6 * place - 4, 5, 0.1 * place}, 30, {0.1f, -1, 0.05f}, 0.1f * outer, outer));
+  }
+  const Seen seen =
+      check.expect_exact(camera_at({0, 6, 5}, {0, 0, 0}, wide, high), lights, {{.tile = 16}}, wide * high);
+  EXPECT_GT(seen.contributing(), 300u);
+}
+
 }  // namespace
 }  // namespace ml::test

@@ -1,5 +1,6 @@
 // Shading: singular places, extreme values, far from the origin.
 #include <cmath>
+#include <limits>
 
 #include "harness/accuracy/image_metrics.h"
 #include "tests/hard_cases/hard_cases.h"
@@ -23,6 +24,45 @@ TEST_F(HardCases, Case32_LightExactlyOnTheSurfacePoint) {
   }
   Seen seen = check.expect_exact(camera, lights);
   EXPECT_GT(seen.contributing(), 0u);
+}
+
+TEST_F(HardCases, Case33_NormalsThatAreNoNumbersPoisonNothing) {
+  // The filter is at the producer: the g-buffer's words have no code for what is no number, so that nothing
+  // behind it, a history least of all, can pick one up. The rest of the picture stays as it is, bit for bit.
+  const auto level = [](float broken) {
+    Scene scene = HandMadeScene()
+                      .rectangle({-20, 0, 20}, {40, 0, 0}, {0, 0, -40})
+                      .rectangle({-2, 0, -3}, {4, 0, 0}, {0, 3, 0})
+                      .finish();
+    // The upright one's.
+    for (size_t i = 4; i < 8; ++i) scene.vertices[i].normal = glm::vec3(0, broken, 1);
+    return scene;
+  };
+  const Camera camera = camera_at({0, 3, 6}, {0, 1, -3}, width, height);
+  const std::vector<Light> lights = scattered(80, {-6, 0.5, -6}, {6, 4, 4}, 1, 8, 33);
+  Exactness sound(level(0), width, height);
+  const Seen expected = sound.expect_exact(camera, lights);
+  for (float broken : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    SCOPED_TRACE(broken);
+    Exactness check(level(broken), width, height);
+    const Seen seen = check.expect_exact(camera, lights, usual_settings(), 0);
+    const std::vector<float> position = check.frame().read_aov(DeviceFrame::Aov::position),
+                             normal = check.frame().read_aov(DeviceFrame::Aov::normal);
+    uint32_t upright = 0;
+    for (size_t pixel = 0; pixel < size_t{width} * height; ++pixel) {
+      if (!seen.lit[pixel]) continue;
+      const glm::vec3 n(normal[4 * pixel], normal[4 * pixel + 1], normal[4 * pixel + 2]);
+      ASSERT_NEAR(glm::length(n), 1, 1e-5f) << "pixel " << pixel;
+      if (position[4 * pixel + 1] + camera.position.y > 1e-3f) {
+        ++upright;
+        continue;
+      }
+      for (size_t channel = 0; channel < 3; ++channel)
+        ASSERT_EQ(seen.image.data[3 * pixel + channel], expected.image.data[3 * pixel + channel])
+            << "pixel " << pixel;
+    }
+    EXPECT_GT(upright, 100u);
+  }
 }
 
 TEST_F(HardCases, Case34_RoughnessZeroAndGrazingViews) {

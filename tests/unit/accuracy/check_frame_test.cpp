@@ -41,7 +41,7 @@ struct Frame {
         float x = random.uniform(-0.5f, 0.5f), y = -std::sqrt(1 - x * x);
         row.direction[0] = x, row.direction[1] = y;
         row.cos_outer = random.uniform(0.3f, 0.95f);
-        row.cone_scale = 2 / (1 - row.cos_outer), row.cone_offset = -row.cos_outer * row.cone_scale;
+        row.cone_limit = 1 - row.cos_outer, row.cone_scale = 2 / row.cone_limit;
       }
       if (segment || box) row.side[2] = random.below(2) ? 1 : -1;  // across the direction
       if (segment) row.half_length = random.uniform(0, 4);
@@ -56,8 +56,7 @@ struct Frame {
            .spot = row.shape == "spot" || row.shape == "wedge",
            .direction = {row.direction[0], row.direction[1], row.direction[2]},
            .cone_scale = row.cone_scale,
-           .cone_offset = row.cone_offset,
-           .cos_outer = row.cos_outer,
+           .cone_limit = row.cone_limit,
            .side = {row.side[0], row.side[1], row.side[2]},
            .half_length = row.half_length,
            .box = box,

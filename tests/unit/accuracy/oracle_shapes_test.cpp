@@ -44,8 +44,8 @@ OracleLight random_light(Kind kind, Random& random) {
   light.half_length = 3 * random.uniform();
   if (kind == Kind::capsule) return light;
   light.spot = true;
-  light.cos_outer = 1.8 * random.uniform() - 0.9;
-  light.cone_scale = 2 / (1 - light.cos_outer), light.cone_offset = -light.cos_outer * light.cone_scale;
+  light.cone_limit = 1.9 - 1.8 * random.uniform();
+  light.cone_scale = 2 / light.cone_limit;
   return light;
 }
 
@@ -164,7 +164,7 @@ TEST(OracleShapes, AreZeroAtTheirBoundaryAndPositiveWithinIt) {
     for (double edge : {1 - 1e-9, 1.0}) {
       OracleLight tube{.position = {slide, 2 * edge, -10}, .radius = 2, .half_length = 2};
       EXPECT_EQ(contributes(tube), edge < 1) << slide;
-      tube.spot = true, tube.cone_offset = -0.5, tube.cone_scale = 1.5, tube.cos_outer = 1.0 / 3;
+      tube.spot = true, tube.cone_limit = 2.0 / 3, tube.cone_scale = 1.5;
       EXPECT_EQ(contributes(tube), edge < 1) << "wedge at " << slide;
       OracleLight box{
           .position = {slide, 2 * edge, -10}, .radius = 9, .box = true, .half_extents = {2, 3, 2}};

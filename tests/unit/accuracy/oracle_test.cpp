@@ -31,9 +31,8 @@ std::vector<OracleLight> random_lights(uint32_t count, uint64_t seed) {
       light.spot = true;
       light.direction = random_direction(random);
       double outer = std::cos(0.2 + random.uniform()), inner = outer + 0.5 * (1 - outer);
-      light.cos_outer = outer;
       light.cone_scale = 1 / (inner - outer);
-      light.cone_offset = -outer * light.cone_scale;
+      light.cone_limit = 1 - outer;
     }
   }
   return lights;
@@ -203,8 +202,7 @@ TEST(Oracle, LightsBehindOutOfReachOrBesideTheConeDoNotContribute) {
                    .spot = true,
                    .direction = {0, 0, -1},
                    .cone_scale = 10,
-                   .cone_offset = -9,
-                   .cos_outer = 0.9};
+                   .cone_limit = 0.1};
   EXPECT_EQ(contributes(spot), 1u);
   spot.direction = {1, 0, 0};
   EXPECT_EQ(contributes(spot), 0u);
@@ -223,9 +221,9 @@ TEST(Oracle, MarginalLightsAreThoseThatRoundingMayFlip) {
     EXPECT_EQ(marginal({.position = {3, 0, -10 + side * 0.5e-5}, .radius = 2}), 0u) << "out of reach anyway";
     OracleLight spot{
         .position = {0, 0, -9}, .radius = 2, .spot = true, .direction = {0, 0, -1}, .cone_scale = 10};
-    spot.cos_outer = 1 - side * 0.5e-5, spot.cone_offset = -10 * spot.cos_outer;
+    spot.cone_limit = side * 0.5e-5;
     EXPECT_EQ(marginal(spot), 1u) << "at the cone's edge";
-    spot.cos_outer = 1 - side * 3e-5, spot.cone_offset = -10 * spot.cos_outer;
+    spot.cone_limit = side * 3e-5;
     EXPECT_EQ(marginal(spot), 0u);
   }
 }

@@ -26,7 +26,7 @@ std::vector<LightRow> random_lights(size_t count) {
     for (float& value : light.position) value = finite();
     for (float& value : light.intensity) value = finite();
     for (float& value : light.direction) value = finite();
-    light.radius = finite(), light.cone_scale = finite(), light.cone_offset = finite(),
+    light.radius = finite(), light.cone_scale = finite(), light.cone_limit = finite(),
     light.cos_outer = finite(), light.half_length = finite();
     for (float& value : light.side) value = finite();
     for (float& value : light.half_extents) value = finite();
@@ -40,7 +40,7 @@ bool same(const LightRow& a, const LightRow& b) {
   return std::memcmp(a.position, b.position, sizeof a.position) == 0 &&
          std::memcmp(a.intensity, b.intensity, sizeof a.intensity) == 0 &&
          std::memcmp(a.direction, b.direction, sizeof a.direction) == 0 && a.radius == b.radius &&
-         a.cone_scale == b.cone_scale && a.cone_offset == b.cone_offset && a.cos_outer == b.cos_outer &&
+         a.cone_scale == b.cone_scale && a.cone_limit == b.cone_limit && a.cos_outer == b.cos_outer &&
          std::memcmp(a.side, b.side, sizeof a.side) == 0 && a.half_length == b.half_length &&
          std::memcmp(a.half_extents, b.half_extents, sizeof a.half_extents) == 0 && a.shape == b.shape;
 }
