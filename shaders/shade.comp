@@ -4,8 +4,12 @@
 //                       bool light_next(inout LightCursor, out uint light, out float weight);
 // (`light` may be no_light: nothing found this time, ask again) and may define
 //   CURSOR_LIGHT(light)  when light data stands elsewhere than in lights[];
-//   CURSOR_RUNS          with light_cell(), cell_begin(), light_next_run() and run_light(): the pixels of a subgroup can then walk the lights of
-//                        a cell together (shade_together below);
+//   CURSOR_MORE(cursor)  false when light_next() will find nothing, where that is known beforehand;
+//   CURSOR_RUNS          the pixels of a subgroup can walk the lights of a cell together (shade_together.glsl), by
+//                        uint light_cell(SurfacePoint), LightCursor cell_begin(uint cell, float depth, bool counted),
+//                        uint light_next_runs(inout LightCursor, bool here, out bool more)  the next runs of lights, a bit for each,
+//                        bool light_run(LightCursor, uint bit, bool here, out uint first, out uint count)  a run, and whether the pixel wants it,
+//                        uint run_light(uint place)  a light of a run;
 //   CURSOR_CASES         with cursor_case(), light_next_in_list() and light_next_shared(): subgroups whose pixels have something in common
 //                        are walked in a loop of their own.
 // With FORWARD it is the fragment shader of the forward pass (shade_forward.glsl): the same loop, a pixel at a time.
@@ -61,6 +65,9 @@ const uint no_light = 0xffffffffu;
 
 #include "light_cursor.glsl"
 
+#ifndef CURSOR_MORE
+#define CURSOR_MORE(cursor) true
+#endif
 #ifndef CURSOR_LIGHT
 #define CURSOR_LIGHT(light) lights[light]
 #endif
@@ -109,18 +116,21 @@ void add_light(SurfacePoint point, LightCore data, LightSample from, float weigh
       SHADE_NEXT(next_light)                                      \
     }                                                             \
   } else {                                                        \
-    while (true) {                                                \
-      bool found = false;                                         \
-      while (!found) {                                            \
-        if (!next_light(cursor, light, weight)) break;            \
-        if (light == no_light) continue;                          \
-        data = CURSOR_LIGHT(light);                               \
-        found = test_light(point, data, from);                    \
+    bool more, found;                                             \
+    do {                                                          \
+      found = false;                                              \
+      do {                                                        \
+        more = next_light(cursor, light, weight);                 \
+        if (more && light != no_light) {                          \
+          data = CURSOR_LIGHT(light);                             \
+          found = test_light(point, data, from);                  \
+        }                                                         \
+      } while (more && !found);                                   \
+      if (found) {                                                \
+        data.intensity = CURSOR_LIGHT(light).intensity;           \
+        add_light(point, data, from, weight, sum);                \
       }                                                           \
-      if (!found) break;                                          \
-      data.intensity = CURSOR_LIGHT(light).intensity;             \
-      add_light(point, data, from, weight, sum);                  \
-    }                                                             \
+    } while (more && CURSOR_MORE(cursor));                        \
   }
 
 void shade_alone(SurfacePoint point, inout VEC3 sum) {

@@ -69,19 +69,30 @@ void shade_run(SurfacePoint point, uint first, uint count, bool wanted, inout VE
 }
 
 // The pixels that lie in one cell walk it together, one cell after the other. `lit`: false for lanes that only help.
+// Loops test at their end: where a processor runs its lanes in step, a turn that finds nothing costs as much as any other.
 void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
   const uint none = 0xffffffffu;
   uint left = lit ? light_cell(point) : none;
-  while (true) {
-    const uint cell = subgroupMin(left);
-    if (cell == none) break;
+  uint cell = subgroupMin(left);
+  if (cell == none) return;
+  do {
     const bool here = left == cell;
     if (here) left = none;
     LightCursor cursor = cell_begin(cell, point.depth, here);
-    uint first, count;
-    bool wanted;
-    while (light_next_run(cursor, here, first, count, wanted)) shade_run(point, first, count, wanted, sum);
-  }
+    bool more;
+    do {
+      uint runs = light_next_runs(cursor, here, more);
+      if (runs != 0u) {
+        do {
+          uint first, count;
+          const bool wanted = light_run(cursor, uint(findLSB(runs)), here, first, count);
+          shade_run(point, first, count, wanted, sum);
+          runs &= runs - 1u;
+        } while (runs != 0u);
+      }
+    } while (more);
+    cell = subgroupMin(left);
+  } while (cell != none);
 }
 
 bool in_one_cell(SurfacePoint point, bool lit) {

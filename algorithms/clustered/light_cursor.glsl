@@ -37,12 +37,15 @@ bool light_next(inout LightCursor cursor, out uint light, out float weight) {
 }
 
 // The whole list is one run.
-bool light_next_run(inout LightCursor cursor, bool here, out uint first, out uint count, out bool wanted) {
+uint light_next_runs(inout LightCursor cursor, bool here, out bool more) {
+  more = false;
+  return cursor.next < cursor.end ? 1u : 0u;
+}
+
+bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint count) {
   first = cursor.next;
   count = cursor.end - cursor.next;
-  wanted = here;
-  cursor.next = cursor.end;
-  return count != 0u;
+  return here;
 }
 
 uint run_light(uint place) { return DUPLICATED ? place : froxel_indices[place]; }
@@ -53,3 +56,4 @@ LightCore cursor_light(uint light) {
   return lights[light];
 }
 #define CURSOR_LIGHT(light) cursor_light(light)
+#define CURSOR_MORE(cursor) ((cursor).next < (cursor).end)

@@ -51,11 +51,15 @@ bool light_next(inout LightCursor cursor, out uint light, out float weight) {
 }
 
 // The whole list is one run.
-bool light_next_run(inout LightCursor cursor, bool here, out uint first, out uint count, out bool wanted) {
+uint light_next_runs(inout LightCursor cursor, bool here, out bool more) {
+  more = false;
+  return cursor.next < cursor.end ? 1u : 0u;
+}
+
+bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint count) {
   first = cursor.next;
   count = cursor.end - cursor.next;
-  wanted = here;
-  cursor.next = cursor.end;
-  return count != 0u;
+  return here;
 }
 #define CURSOR_RUNS
+#define CURSOR_MORE(cursor) ((cursor).next < (cursor).end)

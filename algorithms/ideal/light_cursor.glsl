@@ -19,3 +19,4 @@ bool light_next(inout LightCursor cursor, out uint light, out float weight) {
   light = list_indices[cursor.next++];
   return true;
 }
+#define CURSOR_MORE(cursor) ((cursor).next < (cursor).end)

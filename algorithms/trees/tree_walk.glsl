@@ -14,15 +14,15 @@ layout(scalar, binding = 17) readonly buffer TreeCells { TreeCell tree_cells[]; 
 layout(scalar, binding = 18) readonly buffer TreeNodes { TreeNode tree_nodes[]; };
 layout(scalar, binding = 19) readonly buffer Indices { uint tree_lights[]; };
 
-const uint no_node = 0x80000000u;
+const float any_depth = 3.4e38;  // m, more than any
 
 struct LightCursor {
   uint node, end;   // the next node, and the first behind the tree
   uint next, last;  // lights of the leaf that is walked: the next, and the first behind
   float depth;      // m, of the pixel
-  // A subgroup that walks together: the node that this lane fetched, and the number of the first lane's.
-  TreeNode fetched;
-  uint fetched_first;
+  // A subgroup that walks together: the run of lights that this lane found, and the depths at which it shines.
+  uint run_first, run_count;
+  float run_low, run_high;
 };
 
 // `counted`: the pixel itself walks the tree, and does not only help.
@@ -32,7 +32,7 @@ LightCursor cell_begin(uint cell, float depth, bool counted) {
   // A list is at once what a tree's walk finds in a leaf.
   const uint node = list ? 0u : place.first, end = list ? 0u : place.end;
   const uint next = list ? place.first : 0u, last = list ? place.first + (place.end & ~ML_TREE_CELL_LIST) : 0u;
-  LightCursor cursor = LightCursor(node, end, next, last, depth, TreeNode(0.0, 0.0, 0u, 0u), no_node);
+  LightCursor cursor = LightCursor(node, end, next, last, depth, next, last - next, -any_depth, any_depth);
 #ifdef COUNTING
   if (counted) {
     // Nodes that stand side by side: one tree, or the leaves of one list.
@@ -74,34 +74,46 @@ bool tree_next(inout LightCursor cursor, out uint light, out float weight) {
   return true;
 }
 
-// A subgroup that walks together goes into every node that one of its pixels hits. The lanes fetch as many nodes at once.
-void tree_fetch(inout LightCursor cursor) {
-  cursor.fetched_first = cursor.node;
-  cursor.fetched = tree_nodes[min(cursor.node + gl_SubgroupInvocationID, cursor.end - 1u)];
+// A subgroup that walks together takes as many nodes at once as it has lanes, one each, and with them every leaf that some pixel's depth may
+// be in: between the nearest and the farthest pixel. All nodes above such a leaf hold its depths too, so leaves tell alone; of the others those
+// that are missed tell how far the next nodes can be left out. A list is one run.
+uint light_next_runs(inout LightCursor cursor, bool here, out bool more) {
+  more = false;
+  if (!HAS_TREES) return cursor.run_count != 0u ? 1u : 0u;
+  const uint lanes = min(gl_SubgroupSize, 32u), lane = gl_SubgroupInvocationID;
+  const float near = subgroupMin(here ? cursor.depth : any_depth), far = subgroupMax(here ? cursor.depth : -any_depth);
+  uint runs = cursor.next != cursor.last ? 1u : 0u;
+  do {
+    const uint own = cursor.node + lane;
+    const bool exists = lane < lanes && own < cursor.end;
+    if (here) COUNT_NODES(min(cursor.end - cursor.node, lanes));
+    bool hit = false;
+    uint skipped = 0u;
+    if (exists) {
+      const TreeNode node = tree_nodes[own];
+      hit = node.low <= far && near <= node.high;
+      if (!hit) skipped = own + tree_skip(node);
+      cursor.run_first = node.first_or_below;
+      cursor.run_count = tree_is_leaf(node) ? tree_leaf_lights(node) : 0u;
+      cursor.run_low = node.low;
+      cursor.run_high = node.high;
+    }
+    runs |= subgroupBallot(hit && cursor.run_count != 0u).x;
+    cursor.node = max(cursor.node + lanes, subgroupMax(skipped));
+  } while (runs == 0u && cursor.node < cursor.end);
+  more = cursor.node < cursor.end;
+  return runs;
 }
 
-bool light_next_run(inout LightCursor cursor, bool here, out uint first, out uint count, out bool wanted) {
-  first = cursor.next;
-  count = cursor.last - cursor.next;
-  wanted = here;
-  cursor.next = cursor.last;
-  if (!HAS_TREES || count != 0u) return count != 0u;  // a list
-  while (cursor.node < cursor.end) {
-    if (cursor.node - cursor.fetched_first >= gl_SubgroupSize) tree_fetch(cursor);
-    const uint lane = cursor.node - cursor.fetched_first;
-    const TreeNode node = TreeNode(subgroupShuffle(cursor.fetched.low, lane), subgroupShuffle(cursor.fetched.high, lane),
-                                   subgroupShuffle(cursor.fetched.first_or_below, lane), subgroupShuffle(cursor.fetched.packed, lane));
-    if (here) COUNT_NODES(1u);
-    wanted = here && node.low <= cursor.depth && cursor.depth <= node.high;
-    const bool hit = subgroupAny(wanted);
-    cursor.node += hit ? 1u : tree_skip(node);
-    if (hit && tree_is_leaf(node)) {
-      first = node.first_or_below;
-      count = tree_leaf_lights(node);
-      return true;
-    }
+bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint count) {
+  if (!HAS_TREES) {
+    first = cursor.run_first;
+    count = cursor.run_count;
+    return here;
   }
-  return false;
+  first = subgroupShuffle(cursor.run_first, bit);
+  count = subgroupShuffle(cursor.run_count, bit);
+  return here && subgroupShuffle(cursor.run_low, bit) <= cursor.depth && cursor.depth <= subgroupShuffle(cursor.run_high, bit);
 }
 
 uint run_light(uint place) { return tree_lights[place]; }
