@@ -1,5 +1,6 @@
 #include "algorithms/fine_pruned/fine_pruned.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "algorithms/fine_pruned/list_passes.h"
@@ -14,6 +15,8 @@ namespace ml {
 namespace {
 
 enum Slot : uint32_t { visible_slot };
+
+constexpr uint32_t probes_constant = 10;  // EFFECT_PROBES in shaders/light_eval.glsl
 
 class FinePruned final : public Algorithm {
  public:
@@ -48,6 +51,9 @@ class FinePruned final : public Algorithm {
   std::vector<uint32_t> shade_constants() const override { return {settings_.packed}; }
 
   void create_gpu(gpu::Device& device, const std::vector<gpu::Constant>& shared) override {
+    settings_.probes = std::any_of(shared.begin(), shared.end(), [](const gpu::Constant& constant) {
+      return constant.id == probes_constant && constant.value != 0;
+    });
     passes_ = std::make_unique<ListPasses>(device, shared, settings_);
   }
   void cull(gpu::Commands& commands, const FrameInput& frame, const gpu::Bindings& bound) override {
@@ -65,7 +71,7 @@ class FinePruned final : public Algorithm {
     counters_.overflow_lights = cut + sums.overflow_lights;
     counters_.list_bytes =
         sizeof(gpu_data::VisibleHeader) + lights_.lights().size_bytes() +
-        (settings_.packed ? sums.tiles * ML_PACKED_WORDS * 4 : sums.tiles * 8 + sums.listed * 4);
+        (settings_.packed ? sums.tiles * settings_.packed_words() * 4 : sums.tiles * 8 + sums.listed * 4);
   }
 
  private:

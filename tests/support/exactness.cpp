@@ -326,7 +326,12 @@ Light box(glm::dvec3 position, glm::vec3 direction, glm::vec3 side, glm::vec3 ha
 }
 
 Effects all_shapes(bool long_lists) {
-  return {.spots = true, .capsules = true, .wedges = true, .boxes = true, .long_lists = long_lists};
+  return {.spots = true,
+          .capsules = true,
+          .wedges = true,
+          .boxes = true,
+          .probes = true,
+          .long_lists = long_lists};
 }
 
 std::vector<Light> mixed_shapes(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest,
@@ -356,6 +361,8 @@ std::vector<Light> mixed_shapes(uint32_t count, glm::dvec3 low, glm::dvec3 high,
         light = box(light.position, light.direction, side,
                     {size(light.radius), size(light.radius), size(light.radius)});
     }
+    light.probe = i % 7 == 3;
+    if (light.probe) light.intensity /= light.radius * light.radius;
   }
   return lights;
 }
