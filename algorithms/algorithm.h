@@ -37,7 +37,7 @@ struct AlgorithmInfo {
   std::string paper;    // author, title, year; "" for the reference algorithms
   bool exact = true;    // false: stochastic
   uint32_t max_lights =
-      0;  // more lights than this are a configuration error; 0: no limit of its own (24-bit ids)
+      0;  // more lights than this are a configuration error; 0: no limit of its own (23-bit ids)
   bool needs_contributing_lists = false;  // `ideal`: wants the per-pixel lists of contributing lights
   bool reference_only = false;            // too slow for ordinary runs: left out of "all"
   // Span names it writes, in order.

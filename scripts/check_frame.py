@@ -6,7 +6,7 @@
 
 Reads STEM.position.exr, STEM.normal.exr, STEM.depth.exr and STEM.contributing.exr, counts in double precision the lights that
 contribute to every pixel, and compares. A light contributes when the point is nearer to its source (a point, or a segment) than its
-radius, or for a box within its faces, faces it (N.L > 0) and lies in its cone. A count may differ by the lights within 1e-5 of one of
+radius, or for a box within its faces, faces it (N.L > 0; probe lights shine from all sides) and lies in its cone. A count may differ by the lights within 1e-5 of one of
 these edges, where single precision may decide otherwise.
 STEM.albedo.exr and STEM.listed.exr are checked for plausibility where they are there.
 
@@ -109,7 +109,7 @@ def parse_exr(data):
     return width, height, pictures
 
 
-COLUMNS = 22
+COLUMNS = 23
 
 
 def cross(a, b):
@@ -117,7 +117,7 @@ def cross(a, b):
 
 
 class Light:
-    __slots__ = ("x", "y", "z", "radius", "spot", "direction", "limit", "side", "half_length", "box", "reach")
+    __slots__ = ("x", "y", "z", "radius", "spot", "direction", "limit", "side", "half_length", "box", "reach", "probe")
 
     def __init__(self, row):
         self.x, self.y, self.z, self.radius = (float(value) for value in row[1:5])
@@ -127,6 +127,7 @@ class Light:
         self.limit = float(row[13])  # 1 - cos of the cone's outer angle
         self.side = tuple(float(value) for value in row[15:18])
         self.half_length = float(row[18])
+        self.probe = {"0": False, "1": True}[row[22]]
         self.box = None
         if shape == "box":
             axes = (self.side, cross(self.direction, self.side), self.direction)
@@ -204,9 +205,10 @@ def count(point, normal, lights):
         else:
             dx, dy, dz = dx / distance, dy / distance, dz / distance
         facing = nx * dx + ny * dy + nz * dz
-        if facing < -margin:
-            continue
-        inside, edge = inside and facing > 0, edge or facing <= margin
+        if not light.probe:
+            if facing < -margin:
+                continue
+            inside, edge = inside and facing > 0, edge or facing <= margin
         if light.spot:
             cosine = -(dx * light.direction[0] + dy * light.direction[1] + dz * light.direction[2])
             within = light.limit - (1 - cosine)

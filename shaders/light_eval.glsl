@@ -18,6 +18,8 @@ layout(constant_id = 3) const bool LONG_LISTS = false;
 layout(constant_id = 4) const bool EFFECT_CAPSULES = true;
 layout(constant_id = 5) const bool EFFECT_WEDGES = true;
 layout(constant_id = 6) const bool EFFECT_BOXES = true;
+// Off, probe lights are direct ones.
+layout(constant_id = 10) const bool EFFECT_PROBES = false;
 
 layout(scalar, binding = BIND_LIGHTS) readonly buffer Lights { LightCore lights[]; };
 layout(scalar, binding = BIND_EXTRAS) readonly buffer Extras { LightExtra extras[]; };
@@ -29,13 +31,15 @@ const float min_roughness = 0.045;           // keeps GGX finite in single preci
 // Geometry of a light as seen from a point.
 struct LightSample {
   VEC3 direction;  // unit, to the light
-  REAL cosine;     // of the surface
+  REAL cosine;     // of the surface; probe lights: 1, they come from all sides
   REAL strength;   // falloff * cone, 1/m^2
 };
 
 bool is_shape(LightCore light, bool effect, uint shape) {
   return effect && light.id_shape >> 24 == shape;
 }
+
+bool is_probe(LightCore light) { return EFFECT_PROBES && (light.id_shape & ML_LIGHT_PROBE) != 0u; }
 
 // m: the light gives nothing beyond this distance from its position.
 float light_bound(LightCore light) {
@@ -77,13 +81,14 @@ bool in_box(LightExtra extra, REAL dx, REAL dy, REAL dz, out REAL window) {
          in_slab(front.x, front.y, front.z, half_extents.z, dx, dy, dz, window);
 }
 
-// False when the light does not contribute: window 0, behind the surface, or outside the cone. `precise` because every pass must decide
+// False when the light does not contribute: window 0, behind the surface (unless it is a probe), or outside the cone. `precise` because every pass must decide
 // alike.
 bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
   result.direction = VEC3(0);
   result.cosine = REAL(0);
   result.strength = REAL(0);
   const uint id = light.id_shape & ML_LIGHT_ID_MASK;
+  const bool probe = is_probe(light);
   const bool wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
   precise REAL dx = REAL(light.position.x) - REAL(point.position.x);
   precise REAL dy = REAL(light.position.y) - REAL(point.position.y);
@@ -108,12 +113,12 @@ bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
     result.cosine = REAL(1);
   } else {
     precise REAL projected = dx * normal.x + dy * normal.y + dz * normal.z;
-    if (!(projected > REAL(0))) return false;
+    if (!probe && !(projected > REAL(0))) return false;
     REAL inverse = REAL(1) / sqrt(distance_squared);
     result.direction = VEC3(dx, dy, dz) * inverse;
-    result.cosine = min(projected * inverse, REAL(1));
+    result.cosine = probe ? REAL(1) : min(projected * inverse, REAL(1));
   }
-  result.strength = window * window / max(distance_squared, REAL(min_distance_squared));
+  result.strength = window * window / (probe ? REAL(1) : max(distance_squared, REAL(min_distance_squared)));
   if (wedge || is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT)) {
     LightExtra extra = extras[id];
     // 1 - cos as half the square of the chord between the two directions. The rounding of their lengths is along the chord's normal and
@@ -167,7 +172,7 @@ VEC3 light_shade(SurfacePoint point, LightCore light, LightSample from) {
   REAL metallic = REAL(point.metallic);
   VEC3 brdf = albedo * ((REAL(1) - metallic) * REAL(lambert));
   REAL lobe, grazing;
-  if (highlight(point, from, lobe, grazing)) {
+  if (!is_probe(light) && highlight(point, from, lobe, grazing)) {
     VEC3 f0 = mix(VEC3(dielectric_f0), albedo, metallic);
     VEC3 fresnel = f0 + (VEC3(1) - f0) * grazing;
     brdf += fresnel * lobe;
@@ -181,7 +186,7 @@ void light_shade_split(SurfacePoint point, LightCore light, LightSample from, ou
   REAL metallic = REAL(point.metallic);
   REAL coloured = (REAL(1) - metallic) * REAL(lambert), plain = REAL(0);
   REAL lobe, grazing;
-  if (highlight(point, from, lobe, grazing)) {
+  if (!is_probe(light) && highlight(point, from, lobe, grazing)) {
     REAL straight = (REAL(1) - grazing) * lobe;  // what f0 multiplies
     coloured += metallic * straight;
     plain = (REAL(1) - metallic) * REAL(dielectric_f0) * straight + grazing * lobe;

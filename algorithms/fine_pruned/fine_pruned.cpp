@@ -1,5 +1,6 @@
 #include "algorithms/fine_pruned/fine_pruned.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "algorithms/fine_pruned/list_passes.h"
@@ -15,6 +16,8 @@ namespace {
 
 enum Slot : uint32_t { visible_slot };
 
+constexpr uint32_t probes_constant = 10;  // EFFECT_PROBES in shaders/light_eval.glsl
+
 class FinePruned final : public Algorithm {
  public:
   explicit FinePruned(const Parameters& p) : together_(walk_together(p)) {
@@ -28,7 +31,7 @@ class FinePruned final : public Algorithm {
     auto span = spans.span("upload");
     const gpu_data::VisibleHeader& header = lights_.header();
     entries_ = settings_.packed ? 0 : lights_.most_entries(frame);
-    longest_walk_ = settings_.packed ? ML_PACKED_LIGHTS : lights_.most_in_a_tile();
+    longest_walk_ = settings_.packed ? 2 * ML_PACKED_LIGHTS : lights_.most_in_a_tile();
     // Where the device may have no room for all lists some tiles walk all lights in view.
     if (entries_ > memory.limit() / 8) longest_walk_ = header.count;
     const size_t index_bytes = lights_.lights().size_bytes();
@@ -52,6 +55,9 @@ class FinePruned final : public Algorithm {
   std::vector<uint32_t> shade_constants() const override { return {settings_.packed}; }
 
   void create_gpu(gpu::Device& device, const std::vector<gpu::Constant>& shared) override {
+    settings_.probes = std::any_of(shared.begin(), shared.end(), [](const gpu::Constant& constant) {
+      return constant.id == probes_constant && constant.value != 0;
+    });
     passes_ = std::make_unique<ListPasses>(device, shared, settings_);
   }
   void cull(gpu::Commands& commands, const FrameInput& frame, const gpu::Bindings& bound) override {
@@ -69,7 +75,7 @@ class FinePruned final : public Algorithm {
     counters_.overflow_lights = cut + sums.overflow_lights;
     counters_.list_bytes =
         sizeof(gpu_data::VisibleHeader) + lights_.lights().size_bytes() +
-        (settings_.packed ? sums.tiles * ML_PACKED_WORDS * 4 : sums.tiles * 8 + sums.listed * 4);
+        (settings_.packed ? sums.tiles * settings_.packed_words() * 4 : sums.tiles * 8 + sums.listed * 4);
   }
 
  private:

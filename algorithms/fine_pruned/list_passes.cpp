@@ -59,7 +59,7 @@ void ListPasses::record(gpu::Commands& commands, const gpu_data::ViewData& view,
   reserve(light_bounds_, uint64_t{visible} * sizeof(gpu_data::ScreenBounds));
   reserve(tile_counts_, uint64_t{tiles_} * 8);
   if (settings_.packed) {
-    reserve(packed_lists_, uint64_t{tiles_} * ML_PACKED_WORDS * 4);
+    reserve(packed_lists_, uint64_t{tiles_} * settings_.packed_words() * 4);
   } else {
     reserve(tile_lists_, uint64_t{tiles_} * 8);
     // Some room for lights that the device's own rounding puts into one tile more. A tile for which there is
@@ -107,9 +107,15 @@ ListPasses::Counts ListPasses::read(gpu::Commands& commands) {
   for (size_t tile = 0; tile < tiles_; ++tile) {
     const uint32_t coarse = words[2 * tile], pruned = words[2 * tile + 1];
     sums.coarse += coarse;
-    sums.listed += settings_.packed ? std::min(pruned, ML_PACKED_LIGHTS) : pruned;
-    if (!settings_.packed) continue;
-    const uint32_t lost = beyond(coarse, ML_PRUNED_CHUNK) + beyond(pruned, ML_PACKED_LIGHTS);
+    if (!settings_.packed) {
+      sums.listed += pruned;
+      continue;
+    }
+    uint32_t lost = beyond(coarse, ML_PRUNED_CHUNK);
+    for (const uint32_t listed : {pruned & 0xffff, pruned >> 16}) {  // listed_pair()
+      sums.listed += std::min(listed, ML_PACKED_LIGHTS);
+      lost += beyond(listed, ML_PACKED_LIGHTS);
+    }
     sums.overflow_lights += lost;
     sums.overflow_tiles += lost > 0;
   }

@@ -13,6 +13,8 @@ namespace ml {
 struct PruneSettings {
   bool packed = false;  // the chapter's lists and limits
   bool fine = true;     // false: coarse lists are final
+  bool probes = false;  // a list of probe lights beside that of direct ones
+  uint32_t packed_words() const { return (probes ? 2 : 1) * ML_PACKED_WORDS; }  // of a tile
 };
 
 class ListPasses {

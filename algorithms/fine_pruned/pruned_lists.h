@@ -8,18 +8,22 @@ ML_NAMESPACE_BEGIN
 #define ML_PRUNED_GROUP 64u  // threads of a tile's workgroup, 2x2 pixels each
 #define ML_PRUNED_CHUNK 64u  // coarse lights that are pruned at once: bits of a thread's mask
 // Limits of the chapter.
-#define ML_PACKED_WORDS 8u       // 32 bytes a tile
-#define ML_PACKED_LIGHTS 24u     // in a tile's list
+#define ML_PACKED_WORDS 8u       // 32 bytes a tile and list
+#define ML_PACKED_LIGHTS 24u     // in a tile's list of direct lights, and in that of probe lights
 #define ML_PACKED_VISIBLE 1024u  // in view: 10-bit indices
 
-// In front of the visible lights' indices, which are sorted by type: balls (omni, capsule), cones (spot,
-// wedge), boxes. A light's place in that order is its visible index.
+// In front of the visible lights' indices, which are sorted: direct lights before probe lights, and each by
+// type: balls (omni, capsule), cones (spot, wedge), boxes. A light's place in that order is its visible
+// index. Tiles' lists keep the order, so a list's direct lights and its probe lights are two lists, one
+// behind the other.
 struct VisibleHeader {
   uint count;
-  uint first_cone, first_box;  // visible indices at which the second and the third type begin
-  uint spare;
+  uint first_cone,
+      first_box;  // visible indices at which the second and the third type of direct lights begin
+  uint first_probe, first_probe_cone, first_probe_box;  // and those of probe lights; `count` without any
+  uvec2 spare;
 };
-ML_SIZE(VisibleHeader, 16);
+ML_SIZE(VisibleHeader, 32);
 
 // Where a light can be seen: first pixel | last pixel << 16, which hold the 16384 px that a picture may have,
 // and view depths. Empty: first > last.
@@ -43,6 +47,10 @@ ML_SIZE(PrunedPush, 12);
 // Three 10-bit indices and how many of them are in use, 0 to 3.
 ML_FUNCTION uint packed_word(uint a, uint b, uint c, uint count) {
   return a | b << 10 | c << 20 | count << 30;
+}
+// What a tile keeps of direct lights and of probe lights, in one word of its counts.
+ML_FUNCTION uint listed_pair(uint direct, uint probes) {
+  return direct | probes << 16;
 }
 ML_FUNCTION uint packed_count(uint word) {
   return word >> 30;

@@ -8,12 +8,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "light_volume.glsl"
 #include "pruned_lists.h"
+#include "tile_points.glsl"
 
 layout(local_size_x = ML_PRUNED_GROUP) in;
 layout(constant_id = 16) const uint MODE = 0u;
 const uint mode_count = 0u;   // only counts the coarse lights
 const uint mode_lists = 1u;   // writes the list at the place that offsets.comp found for it
-const uint mode_packed = 2u;  // the chapter's 32 bytes and limits
+const uint mode_packed = 2u;  // the chapter's limits, and 32 bytes a list
 layout(constant_id = 17) const bool FINE = true;
 
 layout(scalar, binding = 16) readonly buffer Visible {
@@ -24,57 +25,17 @@ layout(scalar, binding = 17) readonly buffer Bounds { ScreenBounds bounds[]; };
 layout(scalar, binding = 18) buffer TileLists { uvec2 tile_lists[]; };  // first light and count
 layout(scalar, binding = 19) writeonly buffer ListLights { uint list_lights[]; };
 layout(scalar, binding = 20) writeonly buffer PackedLists { uint packed_lists[]; };
-layout(scalar, binding = 21) writeonly buffer TileCounts { uvec2 tile_counts[]; };  // lights before and after fine pruning
+layout(scalar, binding = 21) writeonly buffer TileCounts { uvec2 tile_counts[]; };  // lights before and after fine pruning (packed: listed_pair)
 layout(scalar, push_constant) uniform Push { PrunedPush push; };
 
 const uint rounds = 8u;  // lights that a thread tests in one batch
 const uint batch = rounds * ML_PRUNED_GROUP, batch_words = batch / 32u;
 
-shared uint depth_low, depth_high;            // bits of the tile's depths, which are positive and so in order
 shared uint passed[3u * batch_words];         // which lights of a batch passed; three take turns, so that a barrier a batch is enough
 shared uint coarse[ML_PRUNED_CHUNK + batch];  // visible indices of coarse lights, in order
 shared uint survivors[2];                     // which of a chunk's lights hold a pixel
-shared uint kept[ML_PACKED_LIGHTS];
-
-FourPoints points;
-ScreenBounds tile_bounds;
-
-// Pixels of a partial tile that lie outside the picture repeat its last row or column.
-void load_points() {
-  const uint thread = gl_LocalInvocationIndex;
-  const uvec2 corner = gl_WorkGroupID.xy * ML_PRUNED_TILE;
-  const uvec2 first = corner + 2u * uvec2(thread & 7u, thread >> 3), last = view.resolution - 1u;
-  if (thread == 0u) {
-    depth_low = 0xffffffffu;
-    depth_high = 0u;
-  }
-  barrier();
-  for (uint i = 0u; i < 4u; ++i) {
-    const uvec2 pixel = min(first + uvec2(i & 1u, i >> 1), last);
-    const float reversed = texelFetch(Depth, ivec2(pixel), 0).x;
-    points.lit[i] = reversed > 0.0;
-    if (!points.lit[i]) continue;
-    const float depth = depth_from_reversed(reversed);
-    const vec3 position = position_from_depth(pixel, depth);
-    points.x[i] = position.x;
-    points.y[i] = position.y;
-    points.z[i] = position.z;
-    const uint bits = floatBitsToUint(max(depth, 0.0));
-    atomicMin(depth_low, bits);
-    atomicMax(depth_high, bits);
-  }
-  barrier();
-  const uvec2 edge = min(corner + ML_PRUNED_TILE - 1u, last);
-  tile_bounds = ScreenBounds(corner.x | edge.x << 16, corner.y | edge.y << 16, uintBitsToFloat(depth_low), uintBitsToFloat(depth_high));
-}
-
-// Closed ranges, as first | last << 16.
-bool ranges_meet(uint a, uint b) { return (a & 0xffffu) <= b >> 16 && (b & 0xffffu) <= a >> 16; }
-
-bool overlaps(ScreenBounds light) {
-  return ranges_meet(light.x, tile_bounds.x) && ranges_meet(light.y, tile_bounds.y) && light.far >= tile_bounds.near &&
-         light.near <= tile_bounds.far;
-}
+const uint lists = EFFECT_PROBES ? 2u : 1u;   // of a tile: direct lights, and probe lights
+shared uint kept[2u * ML_PACKED_LIGHTS];
 
 // How many of the chunk's lights, of which there are at most 64, come before a visible index.
 uint lights_before(uint begin, uint count, uint value) {
@@ -91,6 +52,9 @@ uint lights_before(uint begin, uint count, uint value) {
 #undef STEP
   return at;
 }
+
+// Place in the chunk at which its probe lights begin.
+uint probes_from(uint begin, uint count) { return EFFECT_PROBES ? lights_before(begin, count, visible.first_probe) : count; }
 
 // One loop for each type of volume. Several lights a turn where there are many: some drivers are short of turns (shaders/light_eval.glsl).
 #define PRUNE(volume, end, at)                                                               \
@@ -122,11 +86,19 @@ uvec2 prune(uint begin, uint count) {
   if (gl_LocalInvocationIndex < 2u) survivors[gl_LocalInvocationIndex] = 0u;
   barrier();
   const uint cones = lights_before(begin, count, visible.first_cone), boxes = lights_before(begin, count, visible.first_box);
+  const uint probes = probes_from(begin, count);
   uvec2 mask = uvec2(0u);
   if (any(points.lit)) {
     PRUNE_LOOP(in_ball, 0u, cones)
     PRUNE_LOOP(in_cone, cones, boxes)
-    PRUNE_LOOP(in_box_volume, boxes, count)
+    PRUNE_LOOP(in_box_volume, boxes, probes)
+    if (EFFECT_PROBES) {
+      const uint probe_cones = lights_before(begin, count, visible.first_probe_cone);
+      const uint probe_boxes = lights_before(begin, count, visible.first_probe_box);
+      PRUNE_LOOP(in_ball, probes, probe_cones)
+      PRUNE_LOOP(in_cone, probe_cones, probe_boxes)
+      PRUNE_LOOP(in_box_volume, probe_boxes, count)
+    }
   }
   if (mask.x != 0u) atomicOr(survivors[0], mask.x);
   if (mask.y != 0u) atomicOr(survivors[1], mask.y);
@@ -147,12 +119,19 @@ bool has_bit(uvec2 mask, uint place) { return ((place < 32u ? mask.x >> place : 
 void append_chunk(uint begin, uint count, uint first, inout uint listed) {
   const uint thread = gl_LocalInvocationIndex;
   const uvec2 mask = prune(begin, count);
-  if (has_bit(mask, thread)) {
-    const uint place = listed + bits_before(mask, thread);
-    if (MODE == mode_lists) list_lights[first + place] = visible_lights[coarse[begin + thread]];
-    if (MODE == mode_packed && place < ML_PACKED_LIGHTS) kept[place] = coarse[begin + thread];
+  const uint all = bitCount(mask.x) + bitCount(mask.y);
+  if (MODE == mode_packed) {  // the only chunk of its tile
+    const uint probes = probes_from(begin, count), direct = probes < 64u ? bits_before(mask, probes) : all;
+    if (has_bit(mask, thread)) {
+      const bool probe = thread >= probes;
+      const uint place = bits_before(mask, thread) - (probe ? direct : 0u);
+      if (place < ML_PACKED_LIGHTS) kept[(probe ? ML_PACKED_LIGHTS : 0u) + place] = coarse[begin + thread];
+    }
+    listed = listed_pair(direct, all - direct);
+    return;
   }
-  listed += bitCount(mask.x) + bitCount(mask.y);
+  if (has_bit(mask, thread)) list_lights[first + listed + bits_before(mask, thread)] = visible_lights[coarse[begin + thread]];
+  listed += all;
 }
 
 // Coarse lights of the batch from `first_light` on, as bits of passed[field ...].
@@ -227,10 +206,12 @@ void main() {
   }
   if (MODE != mode_packed) return;
   barrier();
-  if (thread < ML_PACKED_WORDS) {
-    const uint stored = min(listed, ML_PACKED_LIGHTS), begin = 3u * thread, words_lights = stored > begin ? min(stored - begin, 3u) : 0u;
-    packed_lists[tile * ML_PACKED_WORDS + thread] =
-        packed_word(words_lights > 0u ? kept[begin] : 0u, words_lights > 1u ? kept[begin + 1u] : 0u,
-                    words_lights > 2u ? kept[begin + 2u] : 0u, words_lights);
+  if (thread < lists * ML_PACKED_WORDS) {
+    const uint list = thread / ML_PACKED_WORDS, begin = 3u * (thread % ML_PACKED_WORDS);
+    const uint stored = min(list == 0u ? listed & 0xffffu : listed >> 16, ML_PACKED_LIGHTS);
+    const uint words_lights = stored > begin ? min(stored - begin, 3u) : 0u, from = list * ML_PACKED_LIGHTS + begin;
+    packed_lists[tile * lists * ML_PACKED_WORDS + thread] =
+        packed_word(words_lights > 0u ? kept[from] : 0u, words_lights > 1u ? kept[from + 1u] : 0u,
+                    words_lights > 2u ? kept[from + 2u] : 0u, words_lights);
   }
 }

@@ -11,16 +11,19 @@ FroxelGrid tile_grid(const gpu_data::ViewData& view) {
   return FroxelGrid::make(view, ML_PRUNED_TILE, 1, 5, 0);
 }
 
-// Place in the sequence of loops over lights (section 2.4).
+constexpr size_t types = 6;
+
+// Place in the sequence of loops over lights (section 2.4); probe lights come after all direct ones.
 size_t type_of(uint32_t id_shape) {
+  const size_t first = id_shape & ML_LIGHT_PROBE ? types / 2 : 0;
   switch (id_shape >> 24) {
     case ML_SHAPE_SPOT:
     case ML_SHAPE_WEDGE:
-      return 1;
+      return first + 1;
     case ML_SHAPE_BOX:
-      return 2;
+      return first + 2;
     default:
-      return 0;
+      return first;
   }
 }
 
@@ -35,13 +38,16 @@ void VisibleLightList::cull(const FrameInput& frame, Spans& spans) {
 
 void VisibleLightList::sort(const FrameInput& frame, uint32_t most, Spans& spans) {
   auto span = spans.span("sort");
-  std::array<uint32_t, 3> counts{};
+  std::array<uint32_t, types> counts{}, next{};
   for (size_t i = 0; i < visible_.count; ++i)
     ++counts[type_of(frame.lights.core[visible_.index[i]].id_shape)];
-  std::array<uint32_t, 3> next{0, counts[0], counts[0] + counts[1]};
+  for (size_t type = 1; type < types; ++type) next[type] = next[type - 1] + counts[type - 1];
   header_.count = std::min(in_frustum(), most);
   header_.first_cone = std::min(next[1], most);
   header_.first_box = std::min(next[2], most);
+  header_.first_probe = std::min(next[3], most);
+  header_.first_probe_cone = std::min(next[4], most);
+  header_.first_probe_box = std::min(next[5], most);
   if (sorted_.size() < visible_.count) sorted_.resize(visible_.count);
   for (size_t i = 0; i < visible_.count; ++i) {
     const uint32_t light = visible_.index[i];

@@ -14,8 +14,8 @@ class VisibleLightList {
  public:
   // Leaves out what is outside the view. Span "cull".
   void cull(const FrameInput& frame, Spans& spans);
-  // Balls (omni, capsule), cones (spot, wedge), boxes; each type in ascending order of index. At most `most`
-  // lights are kept, the first ones in that order. Span "sort".
+  // Direct lights, then probe lights; of both balls (omni, capsule), cones (spot, wedge), boxes; each type in
+  // ascending order of index. At most `most` lights are kept, the first ones in that order. Span "sort".
   void sort(const FrameInput& frame, uint32_t most, Spans& spans);
 
   uint32_t in_frustum() const { return static_cast<uint32_t>(visible_.count); }

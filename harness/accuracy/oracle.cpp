@@ -21,6 +21,7 @@ struct Sight {
   double distance;      // m
   double blur;          // relative rounding of `to_light` in single precision, generously
   double falloff;
+  double inverse_square;  // 1/m^2, the part of `falloff` that is no window
   Condition in_reach;
 };
 
@@ -62,6 +63,7 @@ Sight see(const SurfacePoint& point, const OracleLight& light) {
     sight.in_reach = {sight.falloff > 0,
                       std::abs(sight.distance - light.radius) <= margin * (light.radius + lever)};
   }
+  sight.inverse_square = 1 / std::max(sight.distance * sight.distance, 1e-4);
   return sight;
 }
 
@@ -129,6 +131,7 @@ OracleAnswer oracle_shade(const SurfacePoint& point, std::span<const OracleLight
     double cone = oracle_cone(light, cosine);
     Condition in_reach = sight.in_reach;
     Condition faces{facing > 0, std::abs(facing) <= sight.blur};
+    if (light.probe) faces = {true, false};
     Condition in_cone{cone > 0, light.spot && std::abs(light.cone_limit - (1 - cosine)) <= sight.blur};
 
     bool contributes = in_reach.holds && faces.holds && in_cone.holds;
@@ -137,6 +140,12 @@ OracleAnswer oracle_shade(const SurfacePoint& point, std::span<const OracleLight
     if (possible && (in_reach.near || faces.near || in_cone.near)) ++answer.marginal;
     if (!contributes) continue;
     ++answer.contributing;
+    if (light.probe) {
+      const double window = sight.falloff / sight.inverse_square;
+      answer.radiance +=
+          light.intensity * (window * cone) * point.albedo * (1 - point.metallic) / std::numbers::pi;
+      continue;
+    }
     answer.radiance +=
         light.intensity * (sight.falloff * cone * facing) * oracle_brdf(point, to_light, to_viewer, specular);
   }

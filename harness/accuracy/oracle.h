@@ -8,9 +8,11 @@
 //              f0 = mix(0.04, albedo, metallic). Sources: B. Walter et al., "Microfacet Models for Refraction
 //              through Rough Surfaces", EGSR 2007; E. Heitz, "Understanding the Masking-Shadowing Function",
 //              JCGT 3(2), 2014; C. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.
-// A light contributes iff falloff > 0, N.L > 0 and cone > 0. L, distance and cone are taken from the nearest
-// point of the light's source, a segment or a point. A light within 1e-6 m of the point has no direction: it
-// counts as shining from straight above (L = N, distance 0), so that the sum stays finite.
+// and for probe lights intensity * window * cone * diffuse.
+// A light contributes iff falloff > 0, N.L > 0 (or it is a probe) and cone > 0. L, distance and cone are
+// taken from the nearest point of the light's source, a segment or a point. A light within 1e-6 m of the
+// point has no direction: it counts as shining from straight above (L = N, distance 0), so that the sum stays
+// finite.
 #pragma once
 
 #include <cstdint>
@@ -45,6 +47,8 @@ struct OracleLight {
   // The window is a box's in place of the ball's; half extents along side, cross(direction, side), direction.
   bool box = false;
   glm::dvec3 half_extents{0};  // m
+  // Ambient light in the volume: the window alone in place of the falloff, neither N.L nor specular.
+  bool probe = false;
 };
 
 struct OracleAnswer {

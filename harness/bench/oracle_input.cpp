@@ -54,6 +54,7 @@ OracleFrame::OracleFrame(DeviceFrame& frame, const FrameInput& input)
     light.position = core.position;
     light.radius = static_cast<double>(core.radius);
     light.intensity = core.intensity;
+    light.probe = frame.effects().probes && (core.id_shape & ML_LIGHT_PROBE) != 0;
     const auto shape = static_cast<LightShape>(core.id_shape >> 24);
     if (shape != LightShape::omni && shines(shape, frame.effects()))
       set_shape(shape, input.lights.extra[i], light);

@@ -34,6 +34,7 @@ std::vector<LightRow> light_rows(const FrameInput& input) {
     LightRow row;
     row.radius = core.radius;
     const auto shape = static_cast<LightShape>(core.id_shape >> 24);
+    row.probe = (core.id_shape & ML_LIGHT_PROBE) != 0;
     row.shape = light_shape_names().at(core.id_shape >> 24);
     for (int axis = 0; axis < 3; ++axis) {
       row.position[axis] = core.position[axis];

@@ -50,6 +50,8 @@ Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const S
   effects_.capsules = setup.effects.capsules && has(LightShape::capsule);
   effects_.wedges = setup.effects.wedges && has(LightShape::wedge);
   effects_.boxes = setup.effects.boxes && has(LightShape::box);
+  effects_.probes = setup.effects.probes && std::any_of(lights_->base().begin(), lights_->base().end(),
+                                                        [](const Light& light) { return light.probe; });
   effects_.specular = setup.effects.specular;
   effects_.long_lists = lights_->base().size() > Effects::most_turns;
   effects_.alpha_mask = setup.effects.alpha_mask && Level::has_masked_material(*scene_);

@@ -57,6 +57,8 @@ const std::vector<Row>& effects() {
       {"capsule", "omni lights with a length; when the scene has one (effects.capsules: auto | off)"},
       {"wedge", "spots with a length; when the scene has one (effects.wedges: auto | off)"},
       {"box", "windows with six faces; when the scene has one (effects.boxes: auto | off)"},
+      {"probe",
+       "ambient light in a light's volume; when the scene has such lights (effects.probes: auto | off)"},
       {"specular", "GGX highlights (effects.specular: auto | off)"},
       {"alpha_mask",
        "cut-out materials; when a material of the scene has a mask (effects.alpha_mask: auto | off)"},

@@ -44,6 +44,7 @@ struct EffectsSpec {
   bool capsules = true;
   bool wedges = true;
   bool boxes = true;
+  bool probes = true;
   bool specular = true;
   bool alpha_mask = true;
   bool forward = true;

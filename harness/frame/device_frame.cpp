@@ -34,6 +34,7 @@ std::vector<std::string> Effects::names() const {
   if (capsules) list.emplace_back("capsule");
   if (wedges) list.emplace_back("wedge");
   if (boxes) list.emplace_back("box");
+  if (probes) list.emplace_back("probe");
   if (specular) list.emplace_back("specular");
   if (alpha_mask) list.emplace_back("alpha_mask");
   if (forward) list.emplace_back("forward");
@@ -43,7 +44,7 @@ std::vector<std::string> Effects::names() const {
 }
 
 std::vector<gpu::Constant> Effects::constants() const {
-  return {{0, spots}, {1, specular}, {3, long_lists}, {4, capsules}, {5, wedges}, {6, boxes}};
+  return {{0, spots}, {1, specular}, {3, long_lists}, {4, capsules}, {5, wedges}, {6, boxes}, {10, probes}};
 }
 
 struct DeviceFrame::ContributingPasses {

@@ -19,6 +19,7 @@ struct Effects {
   bool capsules = false;
   bool wedges = false;
   bool boxes = false;
+  bool probes = false;
   bool specular = true;
   bool alpha_mask = false;
   bool forward = false;  // materials that are lit in a pass of their own
@@ -31,9 +32,11 @@ struct Effects {
   static constexpr uint32_t most_turns = 28000;
   bool long_walks = false;  // shading loops for long walks in every frame: tests ask for them
   std::vector<std::string> names() const;  // those that are on, "omni" first
-  // A bit for each LightShape that shines as what it is; the others shine like omni lights.
+  // As FrameLightStorage::fill takes them: shapes that are off shine like omni lights, probe lights like
+  // direct ones.
   uint32_t shapes() const {
-    return 1u | (spots ? 2u : 0u) | (capsules ? 4u : 0u) | (wedges ? 8u : 0u) | (boxes ? 16u : 0u);
+    return 1u | (spots ? 2u : 0u) | (capsules ? 4u : 0u) | (wedges ? 8u : 0u) | (boxes ? 16u : 0u) |
+           (probes ? 32u : 0u);
   }
   // The specialization constants that shaders/light_eval.glsl asks for.
   std::vector<gpu::Constant> constants() const;

@@ -102,10 +102,11 @@ void FrameLightStorage::fill(const std::vector<Light>& lights, const glm::vec3& 
     x_[i] = position.x;
     y_[i] = position.y;
     z_[i] = position.z;
-    const bool omni = is_omni(light);
+    const bool omni = is_omni(light), probe = light.probe && (shapes & probe_lights_bit);
     radius_[i] = omni ? light.radius : bounding_radius(light);
     core_[i] = {position, light.radius, light.intensity,
-                static_cast<uint32_t>(i) | (omni ? ML_SHAPE_OMNI : static_cast<uint32_t>(light.shape)) << 24};
+                static_cast<uint32_t>(i) | (probe ? ML_LIGHT_PROBE : 0u) |
+                    (omni ? ML_SHAPE_OMNI : static_cast<uint32_t>(light.shape)) << 24};
     if (!needs_extra) continue;
     Light shining = light;
     if (omni) shining.shape = LightShape::omni;

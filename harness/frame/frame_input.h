@@ -15,13 +15,15 @@ namespace ml {
 
 gpu_data::ViewData view_data(const Camera& camera, uint32_t width, uint32_t height, uint32_t light_count);
 
-inline constexpr uint32_t all_light_shapes = 31;
+// A bit for each LightShape, and one for probe lights.
+inline constexpr uint32_t probe_lights_bit = 32, all_light_shapes = 63;
 
 // Fills structure-of-arrays storage from lights; reused from frame to frame.
 class FrameLightStorage {
  public:
-  // `camera` as in Camera::position. Lights must have passed rejection_reason(); at most 2^24 of them.
+  // `camera` as in Camera::position. Lights must have passed rejection_reason(); at most 2^23 of them.
   // `shapes`: a bit for each LightShape; lights of a shape that is off are omni lights of their radius.
+  // Without probe_lights_bit probe lights are direct ones.
   void fill(const std::vector<Light>& lights, const glm::vec3& camera, uint32_t shapes = all_light_shapes);
   FrameLights lights() const;
 

@@ -18,8 +18,9 @@ namespace {
 constexpr std::string_view header =
     "index,x [m],y [m],z [m],radius [m],intensity_r [W/sr],intensity_g [W/sr],intensity_b [W/sr],shape,"
     "direction_x,direction_y,direction_z,cone_scale,cone_limit,cos_outer,"
-    "side_x,side_y,side_z,half_length [m],half_extent_side [m],half_extent_up [m],half_extent_direction [m]";
-constexpr size_t columns = 22, shape_column = 8;
+    "side_x,side_y,side_z,half_length [m],half_extent_side [m],half_extent_up [m],half_extent_direction "
+    "[m],probe";
+constexpr size_t columns = 23, shape_column = 8, probe_column = 22;
 constexpr std::array<std::string_view, 5> shapes{"omni", "spot", "capsule", "wedge", "box"};
 
 std::array<float*, columns> numbers_of(LightRow& row) {
@@ -44,7 +45,8 @@ std::array<float*, columns> numbers_of(LightRow& row) {
           &row.half_length,
           &row.half_extents[0],
           &row.half_extents[1],
-          &row.half_extents[2]};
+          &row.half_extents[2],
+          nullptr};
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -68,6 +70,10 @@ LightRow parse_row(std::string_view line, size_t index, const std::string& place
   if (std::find(shapes.begin(), shapes.end(), row.shape) == shapes.end())
     throw UsageError(
         fmt::format("{}: expected shape {}, found '{}'", place, fmt::join(shapes, ", "), row.shape));
+  if (cells[probe_column] != "0" && cells[probe_column] != "1")
+    throw UsageError(fmt::format("{}: column {}: expected 0 or 1, found '{}'", place, probe_column + 1,
+                                 cells[probe_column]));
+  row.probe = cells[probe_column] == "1";
   std::array<float*, columns> numbers = numbers_of(row);
   for (size_t c = 0; c < columns; ++c) {
     if (!numbers[c]) continue;
@@ -87,9 +93,9 @@ void write_lights_csv(const std::vector<LightRow>& lights, const std::filesystem
     LightRow row = lights[i];
     std::array<float*, columns> numbers = numbers_of(row);
     text += std::to_string(i);
-    for (size_t c = 1; c < columns; ++c)
+    for (size_t c = 1; c < probe_column; ++c)
       text += c == shape_column ? "," + row.shape : fmt::format(",{:.9g}", *numbers[c]);
-    text += "\n";
+    text += row.probe ? ",1\n" : ",0\n";
   }
   write_file(file, text);
 }

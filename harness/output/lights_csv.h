@@ -19,6 +19,7 @@ struct LightRow {
   float side[3] = {0, 0, 0};             // unit: capsule, wedge, box; else 0
   float half_length = 0;                 // m: the source is the segment position +- half_length * side
   float half_extents[3] = {0, 0, 0};     // m: box, along side, cross(direction, side), direction; else 0
+  bool probe = false;                    // 1 or 0: ambient light in the volume, intensity in W/m^2
 };
 
 // Line 1 names columns and units; then one line a light, `index` counting from 0. Floats have 9 significant

@@ -239,6 +239,7 @@ class Exporter {
     if (has_segment(light.shape)) own["half_length"] = light.half_length;
     if (light.shape == LightShape::box) own["half_extents"] = vector_json(glm::dvec3(light.half_extents));
     if (has_cone(light.shape)) add_cone(light, json, own);
+    if (light.probe) own["probe"] = true;
     if (!own.is_null()) json["extras"]["manylights"] = own;
     return json;
   }

@@ -61,6 +61,7 @@ Light light_of(const File& file, size_t index, const PlacedNode& placed, const g
   }
   const Json own = json.value("/extras/manylights"_json_pointer, Json::object());
   light.shape = shape_of(source.type, own.value("shape", ""));
+  light.probe = own.value("probe", false);
   if (light.shape == LightShape::box) {
     make_box(light, {own["half_extents"][0].get<float>(), own["half_extents"][1].get<float>(),
                      own["half_extents"][2].get<float>()});

@@ -10,6 +10,7 @@ namespace {
 constexpr std::string_view magic = "MLLIGHTS";
 constexpr uint32_t version = 2;
 constexpr size_t header_size = 16, record_size = 92, old_record_size = 64;
+constexpr uint32_t probe_bit = 1u << 31;  // of the shape
 
 class Writer {
  public:
@@ -60,7 +61,7 @@ std::vector<std::byte> encode_lights(const std::vector<Light>& lights) {
     for (int c = 0; c < 3; ++c) out.put_float(light.direction[c]);
     out.put_float(light.inner_angle);
     out.put_float(light.outer_angle);
-    out.put32(static_cast<uint32_t>(light.shape));
+    out.put32(static_cast<uint32_t>(light.shape) | (light.probe ? probe_bit : 0));
     for (int c = 0; c < 3; ++c) out.put_float(light.side[c]);
     out.put_float(light.half_length);
     for (int c = 0; c < 3; ++c) out.put_float(light.half_extents[c]);
@@ -93,6 +94,8 @@ std::vector<Light> decode_lights(const std::string& name, Bytes bytes) {
     light.inner_angle = in.get_float();
     light.outer_angle = in.get_float();
     uint32_t shape = in.get32();
+    light.probe = !old && (shape & probe_bit) != 0;
+    if (light.probe) shape &= ~probe_bit;
     if (const uint32_t most = old ? 1 : 4; shape > most)
       fail(at("lights", i) + ": shape " + std::to_string(shape) + ", expected 0 to " + std::to_string(most));
     light.shape = static_cast<LightShape>(shape);

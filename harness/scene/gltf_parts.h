@@ -53,7 +53,8 @@ TextureMapping texture_mapping(const File& file, int material);
 // KHR_lights_punctual does not have stand in the light's extras.manylights: "shape" "capsule" or "box" on a
 // point light, "wedge" on a spot; with "half_length" (m), or "half_extents" (m, along side, cross(direction,
 // side), direction). The node's -z is the direction, its x the side; `range` is the window's radius (boxes
-// have theirs from the extents). Other programs see points and spots.
+// have theirs from the extents). "probe" true makes it a probe light, of any shape. Other programs see points
+// and spots.
 void load_lights(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3& center, Scene& scene);
 
 // gltf_camera.cpp. One path per camera, relative to `center`; sets scene.near from the first. No path when
@@ -100,9 +101,10 @@ tinygltf::Model parse_model(const File& file);
 
 // gltf_light_file.cpp: FILE.lights.bin, all little-endian: "MLLIGHTS", uint32 version (2), uint32 count, then
 // for each light 92 bytes: double position[3] (m, relative to the level's origin), float radius (m), float
-// intensity[3] (W/sr), float direction[3], float inner_angle, float outer_angle (radians), uint32 shape (0
-// omni, 1 spot, 2 capsule, 3 wedge, 4 box), float side[3], float half_length (m), float half_extents[3] (m).
-// Version 1 is read too: 64 bytes a light, up to the shape, which is 0 or 1.
+// intensity[3] (W/sr; probe lights: W/m^2), float direction[3], float inner_angle, float outer_angle
+// (radians), uint32 shape (0 omni, 1 spot, 2 capsule, 3 wedge, 4 box; plus 2^31 for a probe light), float
+// side[3], float half_length (m), float half_extents[3] (m). Version 1 is read too: 64 bytes a light, up to
+// the shape, which is 0 or 1.
 constexpr size_t max_file_lights = 1048576;
 std::vector<std::byte> encode_lights(const std::vector<Light>& lights);
 std::vector<Light> decode_lights(const std::string& name, Bytes bytes);

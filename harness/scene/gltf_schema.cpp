@@ -159,7 +159,7 @@ Fields light_fields() {
           number("range"),
           object("spot", {number("innerConeAngle"), number("outerConeAngle")}),
           own_extras({numbers("cone", 2), text("shape", {"capsule", "wedge", "box"}), number("half_length"),
-                      numbers("half_extents", 3)})};
+                      numbers("half_extents", 3), boolean("probe")})};
 }
 
 const Fields& document_fields() {

@@ -15,6 +15,10 @@
 //   box      The source is the position. The window is the product of (1 - (l/h)^4)^2 over the three axes, l
 //            the place of p along the axis and h the half extent, 0 at and outside the faces. The axes are
 //            side, cross(direction, side) and direction: right-handed. Volume: the box.
+//
+// A probe light (`probe`, in any shape) stands for an environment probe: ambient light in the shape's volume,
+// from all sides at once. It gives intensity (here W/m^2) * W [* cone factor] to every surface point in its
+// volume, whichever way the surface faces, and only diffusely: no N.L, no highlight, no inverse square.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +37,7 @@ const std::vector<std::string>& light_shape_names();
 struct Light {
   glm::dvec3 position{0};  // m, relative to Scene::origin
   float radius = 1;        // m, > 0: no contribution at or beyond this distance; boxes: |half_extents|
-  glm::vec3 intensity{1};  // W/sr per colour channel, >= 0
+  glm::vec3 intensity{1};  // W/sr per colour channel, >= 0; probe lights: W/m^2
   LightShape shape = LightShape::omni;
   glm::vec3 direction{0, -1, 0};  // unit; spots, wedges: the axis, away from the light; boxes: the third axis
   float inner_angle = 0;          // radians; spots, wedges: half-angle inside which the cone factor is 1
@@ -42,6 +46,7 @@ struct Light {
   glm::vec3 side{1, 0, 0};    // unit; capsules: the segment; wedges, boxes: across `direction`
   float half_length = 0;      // m, >= 0; capsules, wedges
   glm::vec3 half_extents{0};  // m, > 0; boxes: along side, cross(direction, side), direction
+  bool probe = false;
 };
 
 inline bool has_cone(LightShape shape) {

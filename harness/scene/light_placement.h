@@ -29,7 +29,8 @@ enum class LightDimension : uint32_t {
   turn,
   aspect_0,
   aspect_1,
-  clump
+  clump,
+  probe
 };
 class LightNumbers {
  public:

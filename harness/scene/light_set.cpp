@@ -159,6 +159,7 @@ LightSet::LightSet(const LightSpec& spec, const Scene& scene) : spec_(adapted(sp
       if (spec_.radius > 0) override_radius(spec_.radius, light);
       glm::vec3 colour = colour_of_hue(LightNumbers(seed_hash, i)(LightDimension::hue));
       light.intensity *= colour * static_cast<float>(intensity_for_radius(light.radius)) * spec_.intensity;
+      maybe_make_probe(LightNumbers(seed_hash, i), spec_, light);
       accept(light);
     }
     return;
@@ -180,6 +181,7 @@ LightSet::LightSet(const LightSpec& spec, const Scene& scene) : spec_(adapted(sp
     const float lit_radius = light.shape == LightShape::box ? ball_radius : light.radius;
     glm::vec3 colour = colour_of_hue(number(LightDimension::hue));
     light.intensity = colour * static_cast<float>(intensity_for_radius(lit_radius)) * spec_.intensity;
+    maybe_make_probe(number, spec_, light);
     accept(light);
   }
 }

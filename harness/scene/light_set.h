@@ -38,6 +38,8 @@ struct LightSpec {
   float height = 0;
   // [0, 1] each, [0, 1] together: this part of the lights (by hash) have the shape; the rest are omni.
   float spot_fraction = 0, capsule_fraction = 0, wedge_fraction = 0, box_fraction = 0;
+  // The share of probe lights, in whatever shape.
+  float probe_fraction = 0;
   float intensity = 1;  // factor on all intensities, > 0
   uint32_t seed = 1;
   LightScript script = LightScript::none;

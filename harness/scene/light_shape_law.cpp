@@ -85,6 +85,11 @@ LightShape shape_of(const LightNumbers& number, const LightSpec& spec) {
   return choice < end ? LightShape::box : LightShape::omni;
 }
 
+void maybe_make_probe(const LightNumbers& number, const LightSpec& spec, Light& light) {
+  light.probe = number(LightDimension::probe) < spec.probe_fraction;
+  if (light.probe) light.intensity /= light.radius * light.radius;
+}
+
 void give_shape(LightShape shape, const LightNumbers& number, Light& light) {
   light.shape = shape;
   if (shape == LightShape::spot) make_spot(number, light);

@@ -19,6 +19,11 @@ namespace ml {
 // By the light's hash: the shape in whose share of [0, 1) it falls.
 LightShape shape_of(const LightNumbers& number, const LightSpec& spec);
 
+// By the light's hash: with its share of probe lights the spec makes it one. Its irradiance is what the
+// direct light of that intensity would give at its radius without the window: a soft fill, for it does not
+// fall off.
+void maybe_make_probe(const LightNumbers& number, const LightSpec& spec, Light& light);
+
 // Gives an omni light of radius R another shape.
 void give_shape(LightShape shape, const LightNumbers& number, Light& light);
 

@@ -9,8 +9,8 @@ ML_NAMESPACE_BEGIN
 struct LightCore {
   vec3 position;   // m, camera-relative, world axes
   float radius;    // m, of the window; boxes: their half diagonal, which no formula of theirs needs
-  vec3 intensity;  // W/sr
-  uint id_shape;   // light index in the frame (24 bits) | shape << 24
+  vec3 intensity;  // W/sr; probe lights: W/m^2
+  uint id_shape;   // light index in the frame (23 bits) | probe << 23 | shape << 24
 };
 ML_SIZE(LightCore, 32);
 
@@ -35,7 +35,8 @@ ML_SIZE(LightExtra, 48);
 #define ML_SHAPE_CAPSULE 2u
 #define ML_SHAPE_WEDGE 3u
 #define ML_SHAPE_BOX 4u
-#define ML_LIGHT_ID_MASK 0xffffffu
+#define ML_LIGHT_ID_MASK 0x7fffffu
+#define ML_LIGHT_PROBE 0x800000u
 
 // m, along side, box_up() and direction.
 ML_FUNCTION vec3 box_half_extents(LightExtra extra) {

@@ -194,7 +194,7 @@ TEST_F(HardCases, FinePruned_LossIsWhatIsReported) {
               (count - visible) + uint64_t{tiles} * ((visible - coarse) + (coarse - fine)));
     EXPECT_EQ(run.frame.prepare.overflow_tiles, visible > fine ? tiles : 0);
     EXPECT_EQ(run.frame.prepare.fine_lights, fine);
-    EXPECT_EQ(run.frame.prepare.list_bytes, 16 + 4 * uint64_t{visible} + 32 * tiles);
+    EXPECT_EQ(run.frame.prepare.list_bytes, 32 + 4 * uint64_t{visible} + 2 * 32 * tiles);
     // The first ones are kept: balls, then cones, then boxes, each by index.
     uint32_t hash = 0, kept = 0;
     for (auto type : {std::set<uint32_t>{2, 4}, {1, 3}, {0}})
@@ -202,6 +202,60 @@ TEST_F(HardCases, FinePruned_LossIsWhatIsReported) {
         if (type.count(i % 5)) hash += light_hash(i), ++kept;
     EXPECT_EQ(run.counts.hash, std::vector<uint32_t>(pixels, hash));
   }
+}
+
+TEST_F(HardCases, FinePruned_ProbeLightsHaveAListOfTheirOwn) {
+  constexpr uint32_t width = 40, height = 20, pixels = width * height, tiles = 6;
+  PrunedCheck check(floor_at({0, 0, 0}, 100), width, height);
+  const std::pair<uint32_t, uint32_t> mixes[] = {{30, 30}, {24, 24}, {25, 24}, {10, 40}, {0, 30}, {0, 64},
+                                                 {31, 33}, {32, 32}, {33, 31}, {60, 10}, {64, 5}, {500, 600}};
+  for (const auto& [direct, probes] : mixes) {
+    SCOPED_TRACE(fmt::format("{} direct and {} probe lights", direct, probes));
+    // Probe lights first: the lists are by what lights are, not by where they stand.
+    std::vector<Light> lights;
+    for (uint32_t i = 0; i < direct + probes; ++i) {
+      lights.push_back(everywhere(i));
+      lights.back().probe = i < probes;
+    }
+    check.load(above_floor(width, height), lights);
+    EXPECT_EQ(check.truth().count, std::vector<uint32_t>(pixels, direct + probes));
+    check.expect_lossless();
+    const uint32_t all = direct + probes, visible = std::min(all, 1024u);
+    const uint32_t coarse_direct = std::min(direct, 64u), coarse = std::min(visible, 64u),
+                   coarse_probes = std::min(probes, coarse - coarse_direct);
+    const uint32_t fine_direct = std::min(coarse_direct, 24u), fine_probes = std::min(coarse_probes, 24u);
+    for (const char* walk : {"subgroup", "pixel"}) {
+      const PrunedRun run = check.run({"paper", "fine", walk});
+      EXPECT_EQ(run.counts.listed, std::vector<uint32_t>(pixels, fine_direct + fine_probes));
+      EXPECT_EQ(run.frame.lost, uint64_t{pixels} * (all - fine_direct - fine_probes));
+      EXPECT_EQ(run.frame.prepare.overflow_lights,
+                (all - visible) + uint64_t{tiles} * (visible - fine_direct - fine_probes));
+      EXPECT_EQ(run.frame.prepare.list_bytes, 32 + 4 * uint64_t{visible} + 2 * 32 * tiles);
+      // The first ones of each kind are kept: balls, then cones, then boxes, each by index.
+      uint32_t hash = 0;
+      for (bool probe : {false, true}) {
+        uint32_t kept = 0;
+        for (auto type : {std::set<uint32_t>{2, 4}, {1, 3}, {0}})
+          for (uint32_t i = 0; i < all; ++i)
+            if (lights[i].probe == probe && type.count(i % 5) && kept < (probe ? fine_probes : fine_direct))
+              hash += light_hash(i), ++kept;
+      }
+      EXPECT_EQ(run.counts.hash, std::vector<uint32_t>(pixels, hash));
+    }
+  }
+}
+
+TEST_F(HardCases, FinePruned_WithoutProbeLightsThereIsOneListATile) {
+  constexpr uint32_t width = 40, height = 20, tiles = 6;
+  Effects effects = all_shapes();
+  effects.probes = false;
+  PrunedCheck check(floor_at({0, 0, 0}, 100), width, height, effects);
+  std::vector<Light> lights;
+  for (uint32_t i = 0; i < 30; ++i) lights.push_back(everywhere(i));
+  check.load(above_floor(width, height), lights);
+  const PrunedRun run = check.run(paper);
+  EXPECT_EQ(run.counts.listed, std::vector<uint32_t>(width * height, 24));
+  EXPECT_EQ(run.frame.prepare.list_bytes, 32 + 4 * uint64_t{30} + 32 * tiles);
 }
 
 // A light's volume in double precision, larger or smaller by a factor: is the point in it?

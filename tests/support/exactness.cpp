@@ -330,6 +330,7 @@ Effects all_shapes(bool long_lists) {
           .capsules = true,
           .wedges = true,
           .boxes = true,
+          .probes = true,
           .long_lists = long_lists,
           .long_walks = long_lists};
 }
@@ -361,6 +362,8 @@ std::vector<Light> mixed_shapes(uint32_t count, glm::dvec3 low, glm::dvec3 high,
         light = box(light.position, light.direction, side,
                     {size(light.radius), size(light.radius), size(light.radius)});
     }
+    light.probe = i % 7 == 3;
+    if (light.probe) light.intensity /= light.radius * light.radius;
   }
   return lights;
 }

@@ -106,9 +106,9 @@ Light capsule(glm::dvec3 position, float radius, glm::vec3 side, float half_leng
 Light wedge(const Light& spot, glm::vec3 side, float half_length);
 Light box(glm::dvec3 position, glm::vec3 direction, glm::vec3 side, glm::vec3 half_extents);
 
-// All shapes are compiled in.
+// All shapes are compiled in, and probe lights.
 Effects all_shapes(bool long_lists = false);
-// `count` lights like those of scattered(), shapes in turn.
+// `count` lights like those of scattered(), shapes in turn, every seventh a probe light.
 std::vector<Light> mixed_shapes(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest,
                                 float largest, uint32_t seed);
 // `count` lights, uniform in the box, radii log-uniform between the two; every `spot_every`-th is a spot (0:

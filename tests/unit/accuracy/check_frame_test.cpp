@@ -49,6 +49,7 @@ struct Frame {
         row.direction[0] = 0.6f, row.direction[1] = -0.8f;
         for (float& extent : row.half_extents) extent = random.uniform(0.4f, 4);
       }
+      row.probe = i % 7 == 2;
       lights.push_back(row);
       oracle_lights.push_back(
           {.position = {row.position[0], row.position[1], row.position[2]},
@@ -60,7 +61,8 @@ struct Frame {
            .side = {row.side[0], row.side[1], row.side[2]},
            .half_length = row.half_length,
            .box = box,
-           .half_extents = {row.half_extents[0], row.half_extents[1], row.half_extents[2]}});
+           .half_extents = {row.half_extents[0], row.half_extents[1], row.half_extents[2]},
+           .probe = row.probe});
     }
     for (uint32_t y = height / 3; y < height; ++y) {
       for (uint32_t x = 0; x < width; ++x) {

@@ -59,6 +59,38 @@ void expect_equal(const OracleAnswer& a, const OracleAnswer& b, double tolerance
   EXPECT_LE(glm::length(a.radiance - b.radiance), tolerance * glm::length(a.radiance));
 }
 
+TEST(OracleProbes, GiveTheirWindowToEverySurfaceInTheirVolumeAndOnlyDiffusely) {
+  Random random(21);
+  uint32_t lit = 0;
+  for (int number = 0; number < 3000; ++number) {
+    OracleLight light = random_light(static_cast<Kind>(random.below(3)), random);
+    light.probe = true;
+    SurfacePoint point = random_point(random);
+    point.metallic = random.below(2) ? 0.25 : 1.0;
+    const OracleAnswer answer = shade(point, light);
+    // Whichever way the surface faces, with and without highlights.
+    SurfacePoint turned = point;
+    turned.normal = random_direction(random);
+    expect_equal(answer, shade(turned, light));
+    expect_equal(answer, shade(point, light, false));
+    // In the volume, and nowhere else: as for the direct light on a surface that faces it.
+    const dvec3 from = point.position - light.position;
+    const double along = std::clamp(glm::dot(from, light.side), -light.half_length, light.half_length);
+    const dvec3 offset = light.side * along - from;
+    SurfacePoint facing = point;
+    facing.normal = glm::normalize(offset);
+    OracleLight direct = light;
+    direct.probe = false;
+    const OracleAnswer seen = shade(facing, direct, false);
+    EXPECT_EQ(answer.contributing, seen.contributing);
+    // It is that light without the inverse square.
+    const double squared = std::max(glm::dot(offset, offset), 1e-4);
+    EXPECT_LE(glm::length(answer.radiance - seen.radiance * squared), 1e-9 * glm::length(answer.radiance));
+    lit += answer.contributing;
+  }
+  EXPECT_GT(lit, 300u);
+}
+
 TEST(OracleShapes, WithoutALengthTheyAreOmniLightsAndSpots) {
   Random random(1);
   uint32_t contributing = 0;

@@ -30,10 +30,11 @@ TEST(FinePruned, AListTakesThirtyTwoBytesATile) {
   EXPECT_EQ(ML_PACKED_WORDS * 32, ML_PRUNED_TILE * ML_PRUNED_TILE) << "one bit a pixel";
 }
 
-// Balls, cones, boxes.
-int type_of(LightShape shape) {
-  if (shape == LightShape::box) return 2;
-  return has_cone(shape) ? 1 : 0;
+// Balls, cones, boxes; then those of probe lights.
+int type_of(const Light& light) {
+  const int first = light.probe ? 3 : 0;
+  if (light.shape == LightShape::box) return first + 2;
+  return first + (has_cone(light.shape) ? 1 : 0);
 }
 
 TEST(FinePruned, VisibleLightsAreSortedByTypeAndLeftInOrder) {
@@ -49,6 +50,7 @@ TEST(FinePruned, VisibleLightsAreSortedByTypeAndLeftInOrder) {
       light.direction = {0, -1, 0};
       light.side = {1, 0, 0};
       if (has_segment(light.shape)) light.half_length = light.radius;
+      light.probe = number % 3 > 0 && random.below(3) < number % 3;
       if (light.shape == LightShape::box) make_box(light, glm::vec3(light.radius));
     }
     BinningFrame frame(lights, camera, 100, 60);
@@ -61,9 +63,8 @@ TEST(FinePruned, VisibleLightsAreSortedByTypeAndLeftInOrder) {
     visible.count = scalar::cull(frame.frame.lights, 0, lights.size(), constants, visible);
     std::vector<uint32_t> expected(visible.index.begin(),
                                    visible.index.begin() + static_cast<ptrdiff_t>(visible.count));
-    std::stable_sort(expected.begin(), expected.end(), [&](uint32_t a, uint32_t b) {
-      return type_of(lights[a].shape) < type_of(lights[b].shape);
-    });
+    std::stable_sort(expected.begin(), expected.end(),
+                     [&](uint32_t a, uint32_t b) { return type_of(lights[a]) < type_of(lights[b]); });
     ASSERT_EQ(list.in_frustum(), expected.size());
     for (uint32_t most : {1000000u, 40u, 1u}) {
       list.sort(frame.frame, most, spans);
@@ -72,9 +73,14 @@ TEST(FinePruned, VisibleLightsAreSortedByTypeAndLeftInOrder) {
       ASSERT_TRUE(std::equal(kept.begin(), kept.end(), expected.begin()));
       const gpu_data::VisibleHeader& header = list.header();
       ASSERT_LE(header.first_cone, header.first_box);
-      ASSERT_LE(header.first_box, header.count);
+      ASSERT_LE(header.first_box, header.first_probe);
+      ASSERT_LE(header.first_probe, header.first_probe_cone);
+      ASSERT_LE(header.first_probe_cone, header.first_probe_box);
+      ASSERT_LE(header.first_probe_box, header.count);
       for (uint32_t i = 0; i < header.count; ++i)
-        ASSERT_EQ(type_of(lights[kept[i]].shape), (i >= header.first_cone) + (i >= header.first_box));
+        ASSERT_EQ(type_of(lights[kept[i]]), (i >= header.first_cone) + (i >= header.first_box) +
+                                                (i >= header.first_probe) + (i >= header.first_probe_cone) +
+                                                (i >= header.first_probe_box));
       seen += header.count;
     }
   }

@@ -68,6 +68,23 @@ TEST(FrameLights, TheBoundingBallHoldsTheVolumeAndLittleMore) {
   }
 }
 
+TEST(FrameLights, ProbeLightsKeepShapeAndNumberAndAreDirectOnesWithoutTheEffect) {
+  Random random(9);
+  std::vector<Light> lights = random_lights(200, random);
+  for (size_t i = 0; i < lights.size(); i += 3) lights[i].probe = true;
+  FrameLightStorage storage;
+  for (bool probes : {true, false}) {
+    storage.fill(lights, glm::vec3(0), probes ? all_light_shapes : all_light_shapes & ~probe_lights_bit);
+    const FrameLights frame = storage.lights();
+    for (size_t i = 0; i < lights.size(); ++i) {
+      const uint32_t word = frame.core[i].id_shape;
+      EXPECT_EQ(word & ML_LIGHT_ID_MASK, i);
+      EXPECT_EQ(word >> 24, static_cast<uint32_t>(lights[i].shape));
+      EXPECT_EQ((word & ML_LIGHT_PROBE) != 0, probes && lights[i].probe);
+    }
+  }
+}
+
 TEST(FrameLights, TheBallsOfOmniLightsSpotsAndSegmentsWithoutLengthAreTheirOwn) {
   Random random(2);
   std::vector<Light> lights = random_lights(4000, random);

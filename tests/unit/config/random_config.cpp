@@ -63,9 +63,9 @@ json light_value(const std::string& key) {
 }
 
 const std::vector<std::string> light_keys{
-    "placement",    "count",     "sizing",        "base_size",        "radius_ratio",
-    "radius",       "height",    "spot_fraction", "capsule_fraction", "wedge_fraction",
-    "box_fraction", "intensity", "seed",          "animate"};
+    "placement", "count",         "sizing",           "base_size",      "radius_ratio", "radius",
+    "height",    "spot_fraction", "capsule_fraction", "wedge_fraction", "box_fraction", "probe_fraction",
+    "intensity", "seed",          "animate"};
 
 json keyframes() {
   json keys = json::array();
@@ -156,7 +156,7 @@ json random_config() {
   }
   if (now())
     config["effects"] = {
-        {one_of({"spots", "capsules", "wedges", "boxes", "specular", "alpha_mask", "forward"}),
+        {one_of({"spots", "capsules", "wedges", "boxes", "probes", "specular", "alpha_mask", "forward"}),
          one_of({"auto", "off"})}};
   if (now()) config["shading"] = {{"targets", one_of({"one", "split"})}};
   if (now()) {

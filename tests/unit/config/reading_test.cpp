@@ -66,14 +66,14 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
     "scene": {"gltf": "sub/../a.glb", "scene": 2, "seed": 7, "offset": [1, -2.5, 1e6]},
     "lights": {"placement": "area", "count": 9, "sizing": "fixed_size", "base_size": 0.25, "radius_ratio": 24, "radius": 3,
                "height": 2, "spot_fraction": 0.5, "capsule_fraction": 0.125, "wedge_fraction": 0.25,
-               "box_fraction": 0.0625, "intensity": 2, "seed": 4, "animate": "spawn"},
+               "box_fraction": 0.0625, "probe_fraction": 0.375, "intensity": 2, "seed": 4, "animate": "spawn"},
     "camera": {"frames": 3, "keyframes": [{"time": 0, "position": [1, 2, 3], "target": [4, 5, 6]},
                                           {"time": 2.5, "position": [7, 8, 9], "target": [0, 0, 1]}]},
     "resolution": [17, 1],
     "algorithms": [{"name": "clustered", "tile": 32, "zmin": 2, "refinement": true, "light_data": "duplicated"}, "brute_force"],
     "measure": {"warmup": 0, "repeats": 5, "threads": 2, "seed": 9, "mode": "whole"},
     "outputs": {"heatmaps": [2, 0], "images": [1], "trace": false},
-    "effects": {"spots": "off", "capsules": "off", "wedges": "auto", "boxes": "off", "specular": "auto", "alpha_mask": "off", "forward": "off"},
+    "effects": {"spots": "off", "capsules": "off", "wedges": "auto", "boxes": "off", "probes": "off", "specular": "auto", "alpha_mask": "off", "forward": "off"},
     "shading": {"targets": "split"}})");
   EXPECT_EQ(config.name, "every");
   const ml::Setup& setup = config.setups.at(0);
@@ -95,6 +95,7 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
   EXPECT_EQ(lights.capsule_fraction, 0.125f);
   EXPECT_EQ(lights.wedge_fraction, 0.25f);
   EXPECT_EQ(lights.box_fraction, 0.0625f);
+  EXPECT_EQ(lights.probe_fraction, 0.375f);
   EXPECT_EQ(lights.intensity, 2);
   EXPECT_EQ(lights.seed, 4u);
   EXPECT_EQ(lights.script, LightScript::spawn);
@@ -126,6 +127,7 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
   EXPECT_TRUE(setup.effects.specular);
   EXPECT_FALSE(setup.effects.alpha_mask);
   EXPECT_FALSE(setup.effects.forward);
+  EXPECT_FALSE(setup.effects.probes);
   EXPECT_EQ(setup.shading.targets, ShadingTargets::split);
 }
 

@@ -33,6 +33,7 @@ void expect_same(const Config& a, const Config& b) {
     RC_ASSERT(x.lights.capsule_fraction == y.lights.capsule_fraction);
     RC_ASSERT(x.lights.wedge_fraction == y.lights.wedge_fraction);
     RC_ASSERT(x.lights.box_fraction == y.lights.box_fraction);
+    RC_ASSERT(x.lights.probe_fraction == y.lights.probe_fraction);
     RC_ASSERT(x.camera.keyframes.size() == y.camera.keyframes.size());
     for (size_t k = 0; k < x.camera.keyframes.size(); ++k) {
       RC_ASSERT(x.camera.keyframes[k].time == y.camera.keyframes[k].time);
@@ -44,6 +45,8 @@ void expect_same(const Config& a, const Config& b) {
     RC_ASSERT(x.effects.capsules == y.effects.capsules);
     RC_ASSERT(x.effects.wedges == y.effects.wedges);
     RC_ASSERT(x.effects.boxes == y.effects.boxes);
+    RC_ASSERT(x.effects.probes == y.effects.probes);
+    RC_ASSERT(x.effects.forward == y.effects.forward);
     RC_ASSERT(x.algorithms.size() == y.algorithms.size());
     for (size_t k = 0; k < x.algorithms.size(); ++k) {
       RC_ASSERT(x.algorithms[k].name == y.algorithms[k].name);

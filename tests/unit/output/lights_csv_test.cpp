@@ -32,6 +32,7 @@ std::vector<LightRow> random_lights(size_t count) {
     for (float& value : light.half_extents) value = finite();
     static const char* const shapes[] = {"omni", "spot", "capsule", "wedge", "box"};
     light.shape = shapes[random.below(5)];
+    light.probe = random.below(2) == 0;
   }
   return lights;
 }
@@ -42,7 +43,8 @@ bool same(const LightRow& a, const LightRow& b) {
          std::memcmp(a.direction, b.direction, sizeof a.direction) == 0 && a.radius == b.radius &&
          a.cone_scale == b.cone_scale && a.cone_limit == b.cone_limit && a.cos_outer == b.cos_outer &&
          std::memcmp(a.side, b.side, sizeof a.side) == 0 && a.half_length == b.half_length &&
-         std::memcmp(a.half_extents, b.half_extents, sizeof a.half_extents) == 0 && a.shape == b.shape;
+         std::memcmp(a.half_extents, b.half_extents, sizeof a.half_extents) == 0 && a.shape == b.shape &&
+         a.probe == b.probe;
 }
 
 TEST(LightsCsv, EveryFloatComesBackBitForBit) {

@@ -93,6 +93,7 @@ std::vector<Light> many_lights(uint32_t count) {
     if (light.shape == LightShape::box)
       make_box(light, {random.uniform(0.01f, 5), random.uniform(0.01f, 5), random.uniform(0.01f, 5)});
     light.outer_angle = random.uniform(0.01f, 3.14f);
+    light.probe = random.below(4) == 0;
     light.inner_angle = random.below(4) == 0 ? light.outer_angle : light.outer_angle * random.uniform();
   }
   return lights;
@@ -105,6 +106,7 @@ void expect_same_lights(const std::vector<Light>& a, const std::vector<Light>& b
     EXPECT_EQ(a[i].radius, b[i].radius) << i;
     EXPECT_EQ(a[i].intensity, b[i].intensity) << i;
     EXPECT_EQ(a[i].shape, b[i].shape) << i;
+    EXPECT_EQ(a[i].probe, b[i].probe) << i;
     EXPECT_EQ(a[i].half_length, b[i].half_length) << i;
     EXPECT_EQ(a[i].half_extents, b[i].half_extents) << i;
     if (has_cone(a[i].shape)) {
@@ -278,11 +280,11 @@ TEST_F(GltfRoundTrip, SideFileErrorsNameTheFile) {
 }
 
 TEST_F(GltfRoundTrip, SideFilesOfVersionOneAreRead) {
-  // Version 1 had 64 bytes a light, up to its shape, and no shapes but omni and spot.
+  // Version 1 had 64 bytes a light, up to its shape, no shapes but omni and spot, and no probe lights.
   std::vector<Light> lights = many_lights(4097);
   for (Light& light : lights) {
     if (static_cast<uint32_t>(light.shape) > 1) light.shape = LightShape::spot;
-    light.half_length = 0, light.half_extents = glm::vec3(0), light.side = {1, 0, 0};
+    light.half_length = 0, light.half_extents = glm::vec3(0), light.side = {1, 0, 0}, light.probe = false;
   }
   export_glb(busy_scene(), lights, file());
   const fs::path side = file().string() + ".lights.bin";

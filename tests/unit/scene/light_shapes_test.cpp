@@ -67,6 +67,26 @@ TEST(LightShapes, AreTheWantedSharesAndWellFormed) {
   for (size_t shape = 0; shape < 5; ++shape) EXPECT_NEAR(counts[shape] / 20000, expected[shape], 0.015);
 }
 
+TEST(LightShapes, ProbeLightsAreTheirShareOfEveryShapeAndOtherwiseWhatTheyWere) {
+  LightSpec spec = mixed(20000);
+  LightSet direct(spec, level());
+  spec.probe_fraction = 0.3f;
+  LightSet some(spec, level());
+  ASSERT_EQ(some.base().size(), direct.base().size());
+  std::vector<double> all(5, 0.0), probes(5, 0.0);
+  for (size_t i = 0; i < some.base().size(); ++i) {
+    const Light &a = direct.base()[i], &b = some.base()[i];
+    EXPECT_FALSE(a.probe);
+    EXPECT_EQ(a.position, b.position);
+    EXPECT_EQ(a.radius, b.radius);
+    EXPECT_EQ(a.shape, b.shape);
+    EXPECT_TRUE(b.probe || a.intensity == b.intensity) << i;
+    ++all[static_cast<size_t>(b.shape)];
+    probes[static_cast<size_t>(b.shape)] += b.probe;
+  }
+  for (size_t shape = 0; shape < 5; ++shape) EXPECT_NEAR(probes[shape] / all[shape], 0.3, 0.05) << shape;
+}
+
 TEST(LightShapes, OmniLightsAndSpotsStayWhatTheyAreBesideOthers) {
   LightSpec with = mixed(2000), without = with;
   without.capsule_fraction = without.wedge_fraction = without.box_fraction = 0;

@@ -1,0 +1,49 @@
+// Step 2(a): the pixels of a tile, four a thread, and the bounds of all of them.
+#ifndef ML_FINE_PRUNED_TILE_POINTS_GLSL
+#define ML_FINE_PRUNED_TILE_POINTS_GLSL
+#include "light_volume.glsl"
+#include "pruned_lists.h"
+
+shared uint depth_low, depth_high;  // bits of the tile's depths, which are positive and so in order
+
+FourPoints points;
+ScreenBounds tile_bounds;
+
+// Pixels of a partial tile that lie outside the picture repeat its last row or column.
+void load_points() {
+  const uint thread = gl_LocalInvocationIndex;
+  const uvec2 corner = gl_WorkGroupID.xy * ML_PRUNED_TILE;
+  const uvec2 first = corner + 2u * uvec2(thread & 7u, thread >> 3), last = view.resolution - 1u;
+  if (thread == 0u) {
+    depth_low = 0xffffffffu;
+    depth_high = 0u;
+  }
+  barrier();
+  for (uint i = 0u; i < 4u; ++i) {
+    const uvec2 pixel = min(first + uvec2(i & 1u, i >> 1), last);
+    const float reversed = texelFetch(Depth, ivec2(pixel), 0).x;
+    points.lit[i] = reversed > 0.0;
+    if (!points.lit[i]) continue;
+    const float depth = depth_from_reversed(reversed);
+    const vec3 position = position_from_depth(pixel, depth);
+    points.x[i] = position.x;
+    points.y[i] = position.y;
+    points.z[i] = position.z;
+    const uint bits = floatBitsToUint(max(depth, 0.0));
+    atomicMin(depth_low, bits);
+    atomicMax(depth_high, bits);
+  }
+  barrier();
+  const uvec2 edge = min(corner + ML_PRUNED_TILE - 1u, last);
+  tile_bounds = ScreenBounds(corner.x | edge.x << 16, corner.y | edge.y << 16, uintBitsToFloat(depth_low), uintBitsToFloat(depth_high));
+}
+
+// Closed ranges, as first | last << 16.
+bool ranges_meet(uint a, uint b) { return (a & 0xffffu) <= b >> 16 && (b & 0xffffu) <= a >> 16; }
+
+bool overlaps(ScreenBounds light) {
+  return ranges_meet(light.x, tile_bounds.x) && ranges_meet(light.y, tile_bounds.y) && light.far >= tile_bounds.near &&
+         light.near <= tile_bounds.far;
+}
+
+#endif
