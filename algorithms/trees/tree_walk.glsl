@@ -74,32 +74,50 @@ bool tree_next(inout LightCursor cursor, out uint light, out float weight) {
   return true;
 }
 
-// A subgroup that walks together takes as many nodes at once as it has lanes, one each, and with them every leaf that some pixel's depth may
-// be in: between the nearest and the farthest pixel. All nodes above such a leaf hold its depths too, so leaves tell alone; of the others those
-// that are missed tell how far the next nodes can be left out. A list is one run.
+// Whether some pixel of the subgroup that is `here` has a depth in [low, high] of this lane.
+bool some_depth_in(float low, float high, float depth, bool here) {
+  bool some = false;
+  // A few exchanges are cheaper than what small subgroups pay for a sum over all lanes.
+  if (gl_SubgroupSize <= 8u) {
+    const float asked = here ? depth : -any_depth;
+    for (uint lane = 0u; lane < gl_SubgroupSize; ++lane) {
+      const float other = subgroupShuffle(asked, lane);
+      some = some || (low <= other && other <= high);
+    }
+  } else {
+    // Between the nearest and the farthest: no leaf is missed, some are taken in vain.
+    some = low <= subgroupMax(here ? depth : -any_depth) && subgroupMin(here ? depth : any_depth) <= high;
+  }
+  return some;
+}
+
+// A subgroup that walks together takes as many nodes at once as it has lanes, one each, and with them every leaf that holds a pixel's depth. All
+// nodes above such a leaf hold it too, so leaves tell alone; of the others those that are missed tell how far the next nodes can be left out.
+// A list is one run.
 uint light_next_runs(inout LightCursor cursor, bool here, out bool more) {
   more = false;
   if (!HAS_TREES) return cursor.run_count != 0u ? 1u : 0u;
   const uint lanes = min(gl_SubgroupSize, 32u), lane = gl_SubgroupInvocationID;
-  const float near = subgroupMin(here ? cursor.depth : any_depth), far = subgroupMax(here ? cursor.depth : -any_depth);
   uint runs = cursor.next != cursor.last ? 1u : 0u;
   do {
-    const uint own = cursor.node + lane;
+    const uint own = cursor.node + lane, behind = cursor.node + lanes;
     const bool exists = lane < lanes && own < cursor.end;
     if (here) COUNT_NODES(min(cursor.end - cursor.node, lanes));
-    bool hit = false;
-    uint skipped = 0u;
+    TreeNode node = TreeNode(any_depth, -any_depth, 0u, 0u);
+    if (exists) node = tree_nodes[own];
+    const bool hit = some_depth_in(node.low, node.high, cursor.depth, here);
+    const bool leaf = exists && tree_is_leaf(node);
     if (exists) {
-      const TreeNode node = tree_nodes[own];
-      hit = node.low <= far && near <= node.high;
-      if (!hit) skipped = own + tree_skip(node);
       cursor.run_first = node.first_or_below;
-      cursor.run_count = tree_is_leaf(node) ? tree_leaf_lights(node) : 0u;
+      cursor.run_count = tree_leaf_lights(node);
       cursor.run_low = node.low;
       cursor.run_high = node.high;
     }
-    runs |= subgroupBallot(hit && cursor.run_count != 0u).x;
-    cursor.node = max(cursor.node + lanes, subgroupMax(skipped));
+    runs |= subgroupBallot(hit && leaf).x;
+    // The first missed node whose nodes go on behind these is above all others of the kind.
+    const uint next = own + tree_skip(node);
+    const uint jumps = subgroupBallot(exists && !hit && next > behind).x;
+    cursor.node = jumps != 0u ? subgroupShuffle(next, uint(findLSB(jumps))) : behind;
   } while (runs == 0u && cursor.node < cursor.end);
   more = cursor.node < cursor.end;
   return runs;
