@@ -134,11 +134,11 @@ class Algorithm {
   static constexpr uint64_t unknown_walk = UINT64_MAX;
 
   // The classes of the picture's tiles in the frame that prepare() saw last, where some need less of the
-  // shading loop than others. Each class is shaded by a program of its own, for what a program can do costs time
-  // also where it is not needed.
+  // shading loop than others. Each class is shaded by a program of its own, for what a program can do costs
+  // time also where it is not needed.
   virtual TileClasses tile_classes() const { return {}; }
-  // Further constants of a class's program, behind shade_constants(). A higher class can do what a lower one can;
-  // the highest is `TileClasses::most`.
+  // Further constants of a class's program, behind shade_constants(). A higher class can do what a lower one
+  // can; the highest is `TileClasses::most`.
   virtual std::vector<uint32_t> class_constants(uint32_t /*tile_class*/) const { return {}; }
 
   // The pixels of a subgroup walk their cells' lights together, where the device can (shade.comp:

@@ -66,8 +66,8 @@ uint64_t VisibleLightList::most_entries(const FrameInput& frame) {
 }
 
 uint32_t VisibleLightList::most_in_a_tile() {
-  // A box adds one from its first column and row on and takes it away behind its last; sums over columns and rows
-  // are the numbers of boxes.
+  // A box adds one from its first column and row on and takes it away behind its last; sums over columns and
+  // rows are the numbers of boxes.
   const size_t stride = columns_ + size_t{1};
   changes_.assign(stride * (rows_ + size_t{1}), 0);
   for (size_t i = 0; i < visible_.count; ++i) {

@@ -13,6 +13,7 @@ namespace {
 ForestSettings forest_settings(const Parameters& p) {
   ForestSettings settings = tree_settings(p);
   settings.threshold = static_cast<float>(p.real("threshold"));
+  settings.list_lights = static_cast<uint32_t>(p.integer("list_lights"));
   return settings;
 }
 
@@ -40,6 +41,9 @@ AlgorithmEntry hybrid_entry() {
       "threshold", 1, 0, 1e6,
       "a froxel is a tree when its lights' clipped depth extents are on average below this part of its own "
       "(listing 2: 0.5, the text: 1)"));
+  entry.parameters.push_back(ParameterInfo::integer(
+      "list_lights", 64, 0, 4096,
+      "a froxel of no more lights is a list whatever their extents; 0: as the paper, those of one leaf"));
   entry.parameters.push_back(ParameterInfo::boolean(
       "list_case", false, "subgroups that walk nothing but lists have a loop of their own (section 3.4)"));
   entry.parameters.push_back(ParameterInfo::boolean(

@@ -214,12 +214,12 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
     uint32_t longest = 0;
     for (uint32_t c = cell; c < row_end; ++c) longest = std::max(longest, offsets[c + 1] - offsets[c]);
     // No depth matters where all cells are short lists.
-    const uint32_t short_list = settings.lights_per_leaf;
+    const uint32_t short_list = std::max(settings.lights_per_leaf, settings.list_lights);
     if (longest > short_list || settings.list_nodes) {
       reserve_padded(chunk.reaches, row_lights);
       collect(entries + row_first, row_lights, reach_of_light, chunk.reaches.data());
       // Room for full trees of twice the leaves, or the nodes of lists.
-      const size_t leaves = row_lights / short_list + columns;
+      const size_t leaves = row_lights / settings.lights_per_leaf + columns;
       reserve_padded(chunk.low, 2 * leaves);
       reserve_padded(chunk.high, 2 * leaves);
       reserve_padded(chunk.nodes, count + 4 * leaves);
@@ -230,7 +230,7 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
       TreeNode* nodes = chunk.nodes.data() + count;
       size_t written = 0;
       if (lights > short_list) {
-        const uint32_t per_leaf = leaf_size(short_list, lights);
+        const uint32_t per_leaf = leaf_size(settings.lights_per_leaf, lights);
         const uint64_t sum = bound_leaves(chunk, reaches + (first - row_first), lights, per_leaf, extent);
         const bool tree = lights > per_leaf && is_tree(sum, lights, settings.threshold);
         if (tree)

@@ -13,6 +13,9 @@ namespace ml {
 
 struct ForestSettings {
   uint32_t lights_per_leaf = 8;  // [1, 64]; raised where a tree would have more leaves than its fields hold
+  // A cell of no more lights than this is a list, as are those whose lights are one leaf's: to walk a tree
+  // costs about as much as to test so many lights.
+  uint32_t list_lights = 0;
   // Listing 2: a cell becomes a tree when the mean of its lights' depth extents, clipped to the cell, is
   // below this part of the cell's own extent; else a list. Infinite: always a tree. 0: always a list.
   float threshold = 1;

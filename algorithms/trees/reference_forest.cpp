@@ -79,7 +79,7 @@ void ReferenceForest::build(const ReferenceLists& lists, const ForestSettings& s
     const uint32_t begin = lists.offsets()[cell], count = lists.offsets()[cell + 1] - begin;
     const uint32_t per_leaf = leaf_size(settings.lights_per_leaf, count);
     const auto first_node = static_cast<uint32_t>(nodes_.size());
-    if (count > per_leaf && wants_tree(lists, cell, settings.threshold)) {
+    if (count > per_leaf && count > settings.list_lights && wants_tree(lists, cell, settings.threshold)) {
       build_tree(lists, cell, per_leaf, settings.trim_padding);
     } else if (!settings.list_nodes) {
       if (count > 0) cells_[cell] = {begin, ML_TREE_CELL_LIST | count};

@@ -76,7 +76,8 @@ TileClasses TreePrepare::tile_classes() const {
 
 uint64_t TreePrepare::longest_walk() const {
   // A tree's nodes are fewer than twice its leaves, and padding may double those.
-  return lists_.longest() + std::min<uint64_t>(4 * lists_.longest(), 2 * ML_TREE_MAX_LEAVES);
+  const uint64_t lights = lists_.longest(), leaves = lights / trees_.lights_per_leaf + 1;
+  return lights + std::min<uint64_t>(4 * leaves, 2 * ML_TREE_MAX_LEAVES);
 }
 
 std::vector<ParameterInfo> tree_parameters() {

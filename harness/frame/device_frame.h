@@ -26,11 +26,11 @@ struct Effects {
   // The shading pass writes diffuse and specular light apart (shading.targets: split), not a property of the
   // content.
   bool split_targets = false;
-  // Passes over all lights that are fit for more than `most_turns` of them (shaders/light_eval.glsl says why);
-  // costs compile time. Shading loops go by what a frame's pixels walk (ShadedAlgorithm).
+  // Passes over all lights that are fit for more than `most_turns` of them (shaders/light_eval.glsl says
+  // why); costs compile time. Shading loops go by what a frame's pixels walk (ShadedAlgorithm).
   bool long_lists = true;
   static constexpr uint32_t most_turns = 28000;
-  bool long_walks = false;  // shading loops for long walks in every frame: tests ask for them
+  bool long_walks = false;                 // shading loops for long walks in every frame: tests ask for them
   std::vector<std::string> names() const;  // those that are on, "omni" first
   // As FrameLightStorage::fill takes them: shapes that are off shine like omni lights, probe lights like
   // direct ones.

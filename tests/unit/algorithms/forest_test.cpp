@@ -29,6 +29,7 @@ ForestSettings random_forest(Random& random) {
   settings.threshold = thresholds[random.below(5)];
   settings.trim_padding = random.below(2) != 0;
   settings.list_nodes = random.below(2) != 0;
+  settings.list_lights = random.below(2) * random.below(100);
   return settings;
 }
 
