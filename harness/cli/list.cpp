@@ -67,7 +67,7 @@ const std::vector<Row>& effects() {
       {"split_targets",
        "diffuse and specular light written apart and put together by a composite pass (shading.targets: one "
        "| split)"},
-      {"long_lists", "loops that take four lights a turn; with more than 28,000 lights"},
+      {"long_lists", "passes over all lights take several a turn; with more than 28,000 lights"},
   };
   return rows;
 }
