@@ -8,6 +8,7 @@
 
 #include "algorithms/algorithm.h"
 #include "algorithms/froxels/binning.h"
+#include "algorithms/froxels/dense_lists.h"
 #include "algorithms/froxels/depth_order.h"
 #include "algorithms/froxels/refinement.h"
 
@@ -57,6 +58,8 @@ class FroxelLists {
   void cull(const FrameInput& frame, bool by_depth, const BoundsConstants& constants);
   void bound(const FrameLights& lights, size_t p, bool by_depth, const BoundsConstants& constants);
   void emit(size_t p, bool by_depth, bool refinement, const BoundsConstants& constants, uint64_t max_entries);
+  // The lists of one run of lights by bits instead of pairs.
+  void list_dense(bool by_depth);
   // Counting sort of all pairs into the lists.
   void scatter(Threads& threads);
   [[noreturn]] void too_many(uint64_t entries, uint64_t limit) const;
@@ -71,6 +74,7 @@ class FroxelLists {
   VisibleLights visible_;
   std::vector<DepthReach> reaches_;
   DepthOrder order_;
+  FroxelMasks masks_;
   std::vector<LightBox> boxes_;  // by place in visible_
   std::vector<uint32_t> offsets_, list_;
   size_t entries_ = 0;

@@ -1,5 +1,7 @@
 // Fine pruned tile lists: nothing lost where nothing may be, and what the chapter's limits lose is what is
 // reported.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
