@@ -107,6 +107,8 @@ void add_light(SurfacePoint point, LightCore data, LightSample from, float weigh
   }
 // Every pixel first looks for its next light that contributes, then all shade theirs: so the costly part runs about as often as lights
 // contribute and not as often as they are tested, also where a processor runs its lanes in step. With long lists one loop does both.
+// Loops leave by `break`: with a condition at their end Mesa's software driver lost lights, as if pixels that had left a loop took what others
+// found in later turns.
 #define SHADE_LOOP(next_light)                                    \
   if (LONG_LISTS) {                                               \
     while (true) {                                                \
@@ -116,21 +118,19 @@ void add_light(SurfacePoint point, LightCore data, LightSample from, float weigh
       SHADE_NEXT(next_light)                                      \
     }                                                             \
   } else {                                                        \
-    bool more, found;                                             \
-    do {                                                          \
-      found = false;                                              \
-      do {                                                        \
-        more = next_light(cursor, light, weight);                 \
-        if (more && light != no_light) {                          \
-          data = CURSOR_LIGHT(light);                             \
-          found = test_light(point, data, from);                  \
-        }                                                         \
-      } while (more && !found);                                   \
-      if (found) {                                                \
-        data.intensity = CURSOR_LIGHT(light).intensity;           \
-        add_light(point, data, from, weight, sum);                \
+    while (true) {                                                \
+      bool found = false;                                         \
+      while (!found) {                                            \
+        if (!next_light(cursor, light, weight)) break;            \
+        if (light == no_light) continue;                          \
+        data = CURSOR_LIGHT(light);                               \
+        found = test_light(point, data, from);                    \
       }                                                           \
-    } while (more && CURSOR_MORE(cursor));                        \
+      if (!found) break;                                          \
+      data.intensity = CURSOR_LIGHT(light).intensity;             \
+      add_light(point, data, from, weight, sum);                  \
+      if (!CURSOR_MORE(cursor)) break;                            \
+    }                                                             \
   }
 
 void shade_alone(SurfacePoint point, inout VEC3 sum) {

@@ -84,7 +84,8 @@ TEST(Forest, FastPathGivesTheReferencesBits) {
   for (uint32_t seed = 0; seed < 300; ++seed) {
     Random random(1000 + seed);
     Camera camera = random_camera(random);
-    BinningFrame fixture(random_lights(random, random.below(1500), camera), camera, 1 + random.below(400),
+    const auto make = seed % 2 ? random_small_lights : random_lights;
+    BinningFrame fixture(make(random, random.below(1500), camera), camera, 1 + random.below(400),
                          1 + random.below(400));
     FroxelSettings froxels = random_settings(random);
     froxels.refinement = false;
