@@ -13,6 +13,8 @@ namespace {
 
 // A part is worth a thread only when it has some thousand lights.
 constexpr size_t lights_per_part = 2048;
+// Lists of fewer entries stay in the caches that are near.
+constexpr size_t few_entries = 400000;
 
 }  // namespace
 
@@ -122,6 +124,10 @@ void FroxelLists::scatter(Threads& threads) {
   threads.for_each(parts, [&](size_t p) {
     const FroxelPairs& pairs = parts_[p].pairs;
     uint32_t* next = parts_[p].next.data();
+    if (entries_ < few_entries) {
+      for (size_t i = 0; i < pairs.count; ++i) list_[next[pairs.cell[i]]++] = pairs.light[i];
+      return;
+    }
     // Lights in the order of depth fill the lists nearly from front to back: what they will come to in a
     // slice or two is asked for, a cache line at a time.
     constexpr size_t line = 16;
