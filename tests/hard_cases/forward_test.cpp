@@ -80,15 +80,6 @@ std::vector<Light> lights() {
   return mixed_shapes(160, {-10, 0, -6}, {10, 5, 8}, 1, 9, 11);
 }
 
-// Every exact algorithm once, pixels walking together where the algorithm can.
-std::vector<Trial> every_algorithm() {
-  std::vector<Trial> trials;
-  for (const AlgorithmEntry& entry : algorithm_registry())
-    if (entry.info.exact && !entry.info.reference_only && !entry.info.needs_contributing_lists)
-      trials.push_back({entry.info.name, Parameters(entry.parameters)});
-  return trials;
-}
-
 TEST_F(ForwardMaterials, EveryPixelIsLitOnceByEveryAlgorithmAsIfItWereDeferred) {
   // brute_force, ideal and all others: counted lights are the reference's, so none is missing and none there
   // twice.

@@ -46,14 +46,6 @@ std::vector<Light> lights() {
   return mixed_shapes(140, {-25, 0, -20}, {25, 7, 18}, 1, 12, 3);
 }
 
-std::vector<Trial> every_algorithm() {
-  std::vector<Trial> trials;
-  for (const AlgorithmEntry& entry : algorithm_registry())
-    if (entry.info.exact && !entry.info.reference_only && !entry.info.needs_contributing_lists)
-      trials.push_back({entry.info.name, Parameters(entry.parameters)});
-  return trials;
-}
-
 TEST_F(SplitTargets, PictureIsThatOfOneTargetWithEveryAlgorithm) {
   for (bool specular : {true, false}) {
     SCOPED_TRACE(specular);

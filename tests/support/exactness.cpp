@@ -284,6 +284,14 @@ void Exactness::expect_oracle(const Seen& seen, uint32_t points, double floor) {
   }
 }
 
+std::vector<Trial> every_algorithm() {
+  std::vector<Trial> trials;
+  for (const AlgorithmEntry& entry : algorithm_registry())
+    if (entry.info.exact && !entry.info.reference_only && !entry.info.needs_contributing_lists)
+      trials.push_back({entry.info.name, Parameters(entry.parameters)});
+  return trials;
+}
+
 Light omni(glm::dvec3 position, float radius, float intensity) {
   Light light;
   light.position = position;

@@ -97,6 +97,9 @@ class Exactness {
   FrameInput input_;
 };
 
+// Every exact algorithm once, with its defaults; but for the references.
+std::vector<Trial> every_algorithm();
+
 // Lights for hand-written lists.
 Light omni(glm::dvec3 position, float radius, float intensity = 1);
 // Angles in degrees, half-angles of the cone.
