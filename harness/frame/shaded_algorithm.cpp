@@ -11,12 +11,23 @@
 namespace ml {
 namespace {
 
-// Bytes and turns that a shading loop for short walks takes are worth little: this many lights and nodes fit
-// into the turns that some drivers allow (shaders/light_eval.glsl), twice for each when pixels walk alone.
-// Together, a subgroup walks the cells of all its pixels, and takes about three turns for two lights.
+// Lights and nodes up to which the shading loop for short walks, the faster one, stays below the turns that
+// some drivers allow (shaders/light_eval.glsl). A pixel that walks alone takes up to two turns for each. A
+// subgroup walks the cells of all its pixels and takes about three turns for two lights: its limit is for all
+// together.
 constexpr uint64_t longest_short_walk = 28000, longest_short_walk_together = 40000;
 // Workgroups along one axis on the smallest devices.
 constexpr uint32_t most_groups = 65535;
+
+// Where an algorithm's own constants begin.
+constexpr uint32_t first_own_id = 16;
+
+// Appends values with ids from `id` on; returns the id behind them.
+uint32_t append_numbered(std::vector<gpu::Constant>& constants, uint32_t id,
+                         const std::vector<uint32_t>& values) {
+  for (uint32_t value : values) constants.push_back({id++, value});
+  return id;
+}
 
 std::unique_ptr<Algorithm> created(gpu::Device& device, const AlgorithmEntry& entry,
                                    const Parameters& parameters, const Effects& effects) {
@@ -56,15 +67,13 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
   const ShadeShaders shaders = algorithm_->shade_shaders();
   // Forward materials have their albedo at hand: their light goes to the result at once. Pixels walk alone.
   std::vector<gpu::Constant> constants = effects.constants();
-  uint32_t id = 16;
-  for (uint32_t value : algorithm_->shade_constants()) constants.push_back({id++, value});
+  append_numbered(constants, first_own_id, algorithm_->shade_constants());
   forward_timed_ = Level::forward_program(device, shaders.forward, entry.info.name + ": forward", constants);
   forward_counting_ = Level::forward_program(device, shaders.forward_counting,
                                              entry.info.name + ": forward, counting", constants);
 }
 
-// Ids shared by every shading program: shaders/light_eval.glsl, shaders/shade.comp; an algorithm's own begin
-// at 16.
+// Ids shared by every shading program: shaders/light_eval.glsl, shaders/shade.comp.
 const gpu::ComputeProgram& ShadedAlgorithm::program(const Variant& variant) {
   if (auto found = programs_.find(variant); found != programs_.end()) return found->second;
   std::vector<gpu::Constant> constants = effects_.constants();
@@ -74,9 +83,8 @@ const gpu::ComputeProgram& ShadedAlgorithm::program(const Variant& variant) {
   constants.push_back({7, together_});
   constants.push_back({8, effects_.forward && !variant.sampled});
   constants.push_back({9, effects_.split_targets && !variant.sampled});
-  uint32_t id = 16;
-  for (uint32_t value : algorithm_->shade_constants()) constants.push_back({id++, value});
-  for (uint32_t value : algorithm_->class_constants(variant.tile_class)) constants.push_back({id++, value});
+  const uint32_t behind = append_numbered(constants, first_own_id, algorithm_->shade_constants());
+  append_numbered(constants, behind, algorithm_->class_constants(variant.tile_class));
   const ShadeShaders shaders = algorithm_->shade_shaders();
   return programs_
       .emplace(std::piecewise_construct, std::forward_as_tuple(variant),
@@ -108,7 +116,7 @@ size_t ShadedAlgorithm::limit() const {
 }
 
 uint64_t ShadedAlgorithm::upload_bytes() const {
-  uint64_t sum = 0;
+  uint64_t sum = class_blocks_.capacity();
   for (const gpu::UploadBuffer& buffer : buffers_) sum += buffer.capacity();
   gpu::Bindings own;
   algorithm_->gpu_bindings(own);
@@ -127,6 +135,9 @@ void ShadedAlgorithm::sort_blocks(const FrameInput& input) {
   one_class_ = true;
   only_class_ = classes.most;
   if (classes.of_tile.empty()) return;
+  const auto [lowest, highest_of_all] = std::ranges::minmax(classes.of_tile);
+  only_class_ = highest_of_all;
+  if (lowest == highest_of_all) return;
   const uint32_t across = (input.view.resolution.x + 7) / 8, down = (input.view.resolution.y + 7) / 8;
   block_ends_.assign(classes.most + size_t{1}, 0);
   class_of_block_.resize(size_t{across} * down);
@@ -251,9 +262,12 @@ void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input,
 
 uint64_t ShadedAlgorithm::upload_digest() const {
   uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a, 64 bits
-  for (const gpu::UploadBuffer& buffer : buffers_)
+  auto add = [&](const gpu::UploadBuffer& buffer) {
     for (std::byte byte : buffer.host().mapped().first(buffer.used()))
       hash = (hash ^ static_cast<uint8_t>(byte)) * 0x100000001b3u;
+  };
+  for (const gpu::UploadBuffer& buffer : buffers_) add(buffer);
+  if (!one_class_) add(class_blocks_);
   return hash;
 }
 
