@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "algorithms/froxels/shape_bounds.h"
 #include "harness/base/error.h"
@@ -88,20 +87,17 @@ void FroxelLists::emit(size_t p, bool by_depth, bool refinement, const BoundsCon
   for (size_t i = 0; i < part.pairs.count; ++i) ++part.next[part.pairs.cell[i]];
 }
 
-void FroxelLists::list_dense(bool by_depth) {
+bool FroxelLists::sweep(const FrameInput& frame, bool by_depth, uint64_t max_entries) {
+  const uint64_t pairs = parts_[0].froxels;
+  const size_t light_end = frame.lights.count();
+  if (!sweep_is_cheaper(boxes_.data(), in_frustum_, pairs, grid_, light_end)) return false;
+  if (pairs > max_entries) too_many(pairs, max_entries);
+  entries_ = pairs;
   reserve_padded(list_, entries_);
   reserve_padded(offsets_, grid_.cells() + size_t{1});
-  simd::mark(boxes_.data(), by_depth ? order_.places().data() : nullptr, in_frustum_, grid_, masks_);
-  simd::count_marks(masks_, grid_.cells(), offsets_.data());
-  uint32_t running = 0;
-  longest_ = 0;
-  for (uint32_t cell = 0; cell < grid_.cells(); ++cell) {
-    const uint32_t count = std::exchange(offsets_[cell], running);
-    running += count;
-    longest_ = std::max(longest_, count);
-  }
-  offsets_[grid_.cells()] = running;
-  simd::list_marks(masks_, grid_.cells(), offsets_.data(), list_.data());
+  longest_ = simd::sweep(boxes_.data(), by_depth ? order_.places().data() : nullptr, in_frustum_, grid_,
+                         light_end, sweep_memory_, offsets_.data(), list_.data());
+  return true;
 }
 
 // Within a froxel the entries of part 0 come first, so that lists ascend.
@@ -160,11 +156,8 @@ void FroxelLists::build(const FrameInput& frame, const FroxelSettings& settings,
   if (settings.refinement) planes_.build(constants);
   reserve_padded(boxes_, frame.lights.count());
   threads.for_each(runs_.size(), [&](size_t p) { bound(frame.lights, p, by_depth, constants); });
-  if (runs_.size() == 1 && !settings.refinement && dense(parts_[0].froxels, grid_.cells(), in_frustum_)) {
-    entries_ = parts_[0].froxels;
-    if (entries_ > max_entries) too_many(entries_, max_entries);
-    return list_dense(by_depth);
-  }
+  swept_ = runs_.size() == 1 && !settings.refinement && sweep(frame, by_depth, max_entries);
+  if (swept_) return;
   threads.for_each(runs_.size(),
                    [&](size_t p) { emit(p, by_depth, settings.refinement, constants, max_entries); });
   entries_ = 0;

@@ -8,9 +8,9 @@
 
 #include "algorithms/algorithm.h"
 #include "algorithms/froxels/binning.h"
-#include "algorithms/froxels/dense_lists.h"
 #include "algorithms/froxels/depth_order.h"
 #include "algorithms/froxels/refinement.h"
+#include "algorithms/froxels/swept_lists.h"
 
 namespace ml {
 
@@ -44,6 +44,9 @@ class FroxelLists {
   // The most entries of one froxel.
   uint32_t longest() const { return longest_; }
 
+  // Whether the lists came from sweeping over rows (swept_lists.h) rather than from pairs.
+  bool swept() const { return swept_; }
+
   // Order by depth only: the depths (m) that each light in a list reaches, by light index.
   std::span<const DepthReach> reach_of_light() const { return reaches_; }
 
@@ -58,8 +61,8 @@ class FroxelLists {
   void cull(const FrameInput& frame, bool by_depth, const BoundsConstants& constants);
   void bound(const FrameLights& lights, size_t p, bool by_depth, const BoundsConstants& constants);
   void emit(size_t p, bool by_depth, bool refinement, const BoundsConstants& constants, uint64_t max_entries);
-  // The lists of one run of lights by bits instead of pairs.
-  void list_dense(bool by_depth);
+  // The lists of one run of lights without pairs; false: not worth it.
+  bool sweep(const FrameInput& frame, bool by_depth, uint64_t max_entries);
   // Counting sort of all pairs into the lists.
   void scatter(Threads& threads);
   [[noreturn]] void too_many(uint64_t entries, uint64_t limit) const;
@@ -74,12 +77,13 @@ class FroxelLists {
   VisibleLights visible_;
   std::vector<DepthReach> reaches_;
   DepthOrder order_;
-  FroxelMasks masks_;
+  SweepMemory sweep_memory_;
   std::vector<LightBox> boxes_;  // by place in visible_
   std::vector<uint32_t> offsets_, list_;
   size_t entries_ = 0;
   uint32_t longest_ = 0;
   uint64_t in_frustum_ = 0;
+  bool swept_ = false;
 };
 
 }  // namespace ml
