@@ -79,6 +79,9 @@ class UploadMemory {
   virtual std::span<std::byte> map(uint32_t slot, size_t bytes) = 0;
   // The most bytes that one slot can hold.
   virtual size_t limit() const = 0;
+  // Whether a slot that was mapped is ordinary cached memory, that can be written in any order and read back;
+  // else it has to be written once, from front to back.
+  virtual bool cached(uint32_t) const { return false; }
 };
 
 // Exact numbers of one prepare().

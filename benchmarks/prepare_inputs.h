@@ -70,6 +70,7 @@ class PlainMemory final : public UploadMemory {
     return std::span(slots_[slot]).first(bytes);
   }
   size_t limit() const override { return size_t{1} << 30; }
+  bool cached(uint32_t) const override { return true; }
 
  private:
   std::array<std::vector<std::byte>, 8> slots_;

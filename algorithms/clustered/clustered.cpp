@@ -33,8 +33,11 @@ class Clustered final : public Algorithm {
         together_(walk_together(p)) {}
 
   void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override {
-    size_t entry_bytes = duplicated_ ? sizeof(gpu_data::LightCore) : sizeof(uint32_t);
-    lists_.build(frame, settings_, memory.limit() / entry_bytes, spans);
+    const size_t entry_bytes = duplicated_ ? sizeof(gpu_data::LightCore) : sizeof(uint32_t);
+    if (duplicated_)
+      lists_.build(frame, settings_, memory.limit() / entry_bytes, spans);
+    else
+      lists_.build(frame, settings_, memory, indices_slot, spans);
     auto span = spans.span("upload");
     const GridHeader header{lists_.grid().mapping, settings_.tile, lists_.grid().columns,
                             lists_.grid().tiles()};
@@ -47,7 +50,7 @@ class Clustered final : public Algorithm {
       for (size_t i = 0; i < indices.size(); ++i) lights[i] = frame.lights.core[indices[i]];
       memory.map(indices_slot, 0);
     } else {
-      copy(indices, memory.map(indices_slot, indices.size_bytes()));
+      lists_.upload_entries(memory, indices_slot);
       memory.map(duplicates_slot, 0);
     }
     counters_.in_frustum = lists_.lights_in_frustum();

@@ -61,8 +61,7 @@ uint64_t VisibleLightList::most_entries(const FrameInput& frame) {
   rows_ = grid.rows;
   if (visible_.count == 0) return 0;
   reserve_padded(boxes_, visible_.count);
-  simd::bound(VisibleRun(visible_), BoundsConstants(frame.view, grid), boxes_.data());
-  return count_pairs(boxes_.data(), nullptr, visible_.count);
+  return simd::bound(VisibleRun(visible_), BoundsConstants(frame.view, grid), boxes_.data());
 }
 
 uint32_t VisibleLightList::most_in_a_tile() {

@@ -94,7 +94,7 @@ FroxelBox bound_ball(const BoundsConstants& constants, float x, float y, float z
 // See below; without reaches.
 size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
             VisibleLights& visible);
-void bound(const VisibleRun& visible, const BoundsConstants& constants, LightBox* boxes);
+uint64_t bound(const VisibleRun& visible, const BoundsConstants& constants, LightBox* boxes);
 // The depths of a ball, as cull() writes them.
 DepthInterval depth_interval(float z, float radius);
 }  // namespace scalar
@@ -106,8 +106,8 @@ namespace simd {
 // culled side by side.
 size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
             VisibleLights& visible, DepthReach* reaches = nullptr);
-// boxes[i]: of light i of the run; whole vectors are written.
-void bound(const VisibleRun& visible, const BoundsConstants& constants, LightBox* boxes);
+// boxes[i]: of light i of the run; whole vectors are written. Returns the sum of the boxes' froxels.
+uint64_t bound(const VisibleRun& visible, const BoundsConstants& constants, LightBox* boxes);
 // Writes the pairs of the boxes boxes[places[0..count)], or boxes[0..count) without places, one after the
 // other.
 void emit(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
@@ -116,7 +116,8 @@ void emit(const LightBox* boxes, const uint32_t* places, size_t count, const Fro
 const char* target_name();
 }  // namespace simd
 
-// Sum of the boxes' froxels, the pairs that emit() will write; places as there.
+// Sum of the boxes' froxels, the pairs that emit() will write; places as there. bound() returns that of a
+// whole run.
 uint64_t count_pairs(const LightBox* boxes, const uint32_t* places, size_t count);
 // Makes room for `count` pairs and the vector code's padding.
 void reserve_pairs(FroxelPairs& pairs, size_t count);

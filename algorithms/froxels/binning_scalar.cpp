@@ -130,7 +130,8 @@ size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsCon
   return n - begin;
 }
 
-void bound(const VisibleRun& visible, const BoundsConstants& c, LightBox* boxes) {
+uint64_t bound(const VisibleRun& visible, const BoundsConstants& c, LightBox* boxes) {
+  uint64_t froxels = 0;
   for (size_t i = 0; i < visible.count; ++i) {
     FroxelBox box = bound_ball(c, visible.x[i], visible.y[i], visible.z[i], visible.radius[i]);
     if (box.empty()) {
@@ -140,7 +141,9 @@ void bound(const VisibleRun& visible, const BoundsConstants& c, LightBox* boxes)
     boxes[i] = {c.grid.cell(box.x0, box.y0, box.z0), visible.index[i],
                 static_cast<uint16_t>(box.x1 - box.x0 + 1), static_cast<uint16_t>(box.y1 - box.y0 + 1),
                 box.z1 - box.z0 + 1u};
+    froxels += boxes[i].froxels();
   }
+  return froxels;
 }
 
 }  // namespace scalar

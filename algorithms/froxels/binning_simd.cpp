@@ -130,11 +130,42 @@ HWY_INLINE Interval perspective_interval(VF a, VF z, VF radius, VF near) {
   return {low, high};
 }
 
+// No box has more froxels than the grid, whose number is one of 32 bits; their sum may.
+class FroxelSum {
+ public:
+#if HWY_TARGET == HWY_SCALAR
+  void add(VU each) {
+    sum_ += hn::GetLane(each);
+  }
+  uint64_t total() const {
+    return sum_;
+  }
+
+ private:
+  uint64_t sum_ = 0;
+#else
+  HWY_INLINE FroxelSum() : sum_(hn::Zero(Doubled())) {}
+  HWY_INLINE void add(VU each) {
+    const auto pairs = hn::BitCast(Doubled(), each);
+    const auto even = hn::And(pairs, hn::Set(Doubled(), 0xffffffffu));
+    sum_ = hn::Add(sum_, hn::Add(even, hn::ShiftRight<32>(pairs)));
+  }
+  HWY_INLINE uint64_t total() const {
+    return hn::GetLane(hn::SumOfLanes(Doubled(), sum_));
+  }
+
+ private:
+  using Doubled = hn::Repartition<uint64_t, Words>;
+  hn::Vec<Doubled> sum_;
+#endif
+};
+
 template <bool orthographic>
-void bound_all(const VisibleRun& visible, const BoundsConstants& c, LightBox* boxes) {
+uint64_t bound_all(const VisibleRun& visible, const BoundsConstants& c, LightBox* boxes) {
   const size_t lanes = hn::Lanes(df);
   const VF near = constant(c.view.near), half_tile = constant(0.5f), inverse_tile = constant(c.inverse_tile);
   const VF before = constant(0.5f + widen_pixels), after = constant(0.5f - widen_pixels);
+  FroxelSum froxels;
   const VU columns = hn::Set(du, c.grid.columns), rows = hn::Set(du, c.grid.rows), one = hn::Set(du, 1);
   for (size_t i = 0; i < visible.count; i += lanes) {
     VF x = hn::LoadU(df, visible.x + i), y = hn::LoadU(df, visible.y + i), z = hn::LoadU(df, visible.z + i);
@@ -173,14 +204,14 @@ void bound_all(const VisibleRun& visible, const BoundsConstants& c, LightBox* bo
     hn::StoreInterleaved4(hn::IfThenElseZero(kept_words, first), hn::LoadU(du, visible.index + i),
                           hn::IfThenElseZero(kept_words, hn::Or(wide, hn::ShiftLeft<16>(high))), deep, du,
                           &boxes[i].first);
+    const VU each = hn::IfThenElseZero(hn::FirstN(du, visible.count - i), hn::Mul(hn::Mul(wide, high), deep));
+    froxels.add(each);
   }
+  return froxels.total();
 }
 
-void bound(const VisibleRun& visible, const BoundsConstants& c, LightBox* boxes) {
-  if (c.view.orthographic)
-    bound_all<true>(visible, c, boxes);
-  else
-    bound_all<false>(visible, c, boxes);
+uint64_t bound(const VisibleRun& visible, const BoundsConstants& c, LightBox* boxes) {
+  return c.view.orthographic ? bound_all<true>(visible, c, boxes) : bound_all<false>(visible, c, boxes);
 }
 
 template <bool ordered>
@@ -259,8 +290,8 @@ size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsCon
             VisibleLights& visible, DepthReach* reaches) {
   return HWY_DYNAMIC_DISPATCH(cull)(lights, begin, end, constants, visible, reaches);
 }
-void bound(const VisibleRun& visible, const BoundsConstants& constants, LightBox* boxes) {
-  HWY_DYNAMIC_DISPATCH(bound)(visible, constants, boxes);
+uint64_t bound(const VisibleRun& visible, const BoundsConstants& constants, LightBox* boxes) {
+  return HWY_DYNAMIC_DISPATCH(bound)(visible, constants, boxes);
 }
 void emit(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
           const BoxOffsets& offsets, FroxelPairs& pairs) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "algorithms/froxels/shape_bounds.h"
 #include "harness/base/error.h"
@@ -48,16 +49,18 @@ void FroxelLists::bound(const FrameLights& lights, size_t p, bool by_depth,
   const PlaceRun run = runs_[p];
   const VisibleRun visible(visible_, run.first, run.first + run.count);
   LightBox* boxes = &boxes_[run.first];
-  simd::bound(visible, constants, boxes);
+  uint64_t froxels = simd::bound(visible, constants, boxes);
   for (size_t i = 0; i < run.count && !lights.extra.empty(); ++i) {
     const uint32_t light = visible.index[i];
     const gpu_data::LightCore& core = lights.core[light];
     if (core.id_shape >> 24 == ML_SHAPE_OMNI) continue;
     DepthInterval depth = scalar::depth_interval(visible.z[i], visible.radius[i]);
+    froxels -= boxes[i].froxels();
     tighten(constants, core, lights.extra[light], boxes[i], depth);
+    froxels += boxes[i].froxels();
     if (by_depth) reaches_[light] = {-depth.low, depth.high};
   }
-  parts_[p].froxels = count_pairs(boxes, nullptr, run.count);
+  parts_[p].froxels = froxels;
 }
 
 void FroxelLists::emit(size_t p, bool by_depth, bool refinement, const BoundsConstants& constants,
@@ -87,14 +90,33 @@ void FroxelLists::emit(size_t p, bool by_depth, bool refinement, const BoundsCon
   for (size_t i = 0; i < part.pairs.count; ++i) ++part.next[part.pairs.cell[i]];
 }
 
-bool FroxelLists::sweep(const FrameInput& frame, bool by_depth, uint64_t max_entries) {
+void FroxelLists::begin_list(uint64_t entries, UploadMemory* memory, uint32_t slot) {
+  entries_ = entries;
+  reserve_padded(offsets_, grid_.cells() + size_t{1});
+  if (memory) {
+    const std::span<std::byte> mapped = memory->map(slot, entries * sizeof(uint32_t));
+    if (memory->cached(slot)) {
+      list_ = {reinterpret_cast<uint32_t*>(mapped.data()), entries};
+      return;
+    }
+  }
+  reserve_padded(own_list_, entries);
+  list_ = own_list_;
+}
+
+void FroxelLists::upload_entries(UploadMemory& memory, uint32_t slot) const {
+  if (list_.data() != own_list_.data()) return;
+  const std::span<std::byte> mapped = memory.map(slot, entries().size_bytes());
+  if (!entries().empty()) std::memcpy(mapped.data(), entries().data(), entries().size_bytes());
+}
+
+bool FroxelLists::sweep(const FrameInput& frame, bool by_depth, uint64_t max_entries, UploadMemory* memory,
+                        uint32_t slot) {
   const uint64_t pairs = parts_[0].froxels;
   const size_t light_end = frame.lights.count();
   if (!sweep_is_cheaper(boxes_.data(), in_frustum_, pairs, grid_, light_end)) return false;
   if (pairs > max_entries) too_many(pairs, max_entries);
-  entries_ = pairs;
-  reserve_padded(list_, entries_);
-  reserve_padded(offsets_, grid_.cells() + size_t{1});
+  begin_list(pairs, memory, slot);
   longest_ = simd::sweep(boxes_.data(), by_depth ? order_.places().data() : nullptr, in_frustum_, grid_,
                          light_end, sweep_memory_, offsets_.data(), list_.data());
   return true;
@@ -102,8 +124,6 @@ bool FroxelLists::sweep(const FrameInput& frame, bool by_depth, uint64_t max_ent
 
 // Within a froxel the entries of part 0 come first, so that lists ascend.
 void FroxelLists::scatter(Threads& threads) {
-  reserve_padded(list_, entries_);
-  reserve_padded(offsets_, grid_.cells() + size_t{1});
   const size_t parts = runs_.size();
   uint32_t running = 0;
   longest_ = 0;
@@ -138,7 +158,7 @@ void FroxelLists::scatter(Threads& threads) {
 }
 
 void FroxelLists::build(const FrameInput& frame, const FroxelSettings& settings, uint64_t max_entries,
-                        Spans& spans) {
+                        UploadMemory* memory, uint32_t slot, Spans& spans) {
   grid_ = FroxelGrid::make(frame.view, settings.tile, settings.slices, settings.zmin, settings.zmax);
   const BoundsConstants constants(frame.view, grid_);
   const bool by_depth = settings.order == FroxelSettings::Order::depth;
@@ -156,13 +176,14 @@ void FroxelLists::build(const FrameInput& frame, const FroxelSettings& settings,
   if (settings.refinement) planes_.build(constants);
   reserve_padded(boxes_, frame.lights.count());
   threads.for_each(runs_.size(), [&](size_t p) { bound(frame.lights, p, by_depth, constants); });
-  swept_ = runs_.size() == 1 && !settings.refinement && sweep(frame, by_depth, max_entries);
+  swept_ = runs_.size() == 1 && !settings.refinement && sweep(frame, by_depth, max_entries, memory, slot);
   if (swept_) return;
   threads.for_each(runs_.size(),
                    [&](size_t p) { emit(p, by_depth, settings.refinement, constants, max_entries); });
-  entries_ = 0;
-  for (size_t p = 0; p < runs_.size(); ++p) entries_ += parts_[p].pairs.count;
-  if (entries_ > max_entries) too_many(entries_, max_entries);
+  uint64_t entries = 0;
+  for (size_t p = 0; p < runs_.size(); ++p) entries += parts_[p].pairs.count;
+  if (entries > max_entries) too_many(entries, max_entries);
+  begin_list(entries, memory, slot);
   scatter(threads);
 }
 

@@ -33,13 +33,22 @@ class FroxelLists {
 
   // Builds the lists of a frame; spans `cull`, `sort` (order by depth) and `bin`. Lists do not depend on the
   // number of threads. Throws SystemError when they would hold more than `max_entries`.
-  void build(const FrameInput& frame, const FroxelSettings& settings, uint64_t max_entries, Spans& spans);
+  void build(const FrameInput& frame, const FroxelSettings& settings, uint64_t max_entries, Spans& spans) {
+    build(frame, settings, max_entries, nullptr, 0, spans);
+  }
+  // The same for lists that the GPU reads from a slot of the memory: they are built there where it is cached.
+  // upload_entries() sees to it that they are there.
+  void build(const FrameInput& frame, const FroxelSettings& settings, UploadMemory& memory, uint32_t slot,
+             Spans& spans) {
+    build(frame, settings, memory.limit() / sizeof(uint32_t), &memory, slot, spans);
+  }
+  void upload_entries(UploadMemory& memory, uint32_t slot) const;
 
   const FroxelGrid& grid() const { return grid_; }
   // Where each froxel's list begins in entries(), and one more: the end of the last.
   std::span<const uint32_t> offsets() const { return std::span(offsets_).first(grid_.cells() + size_t{1}); }
   // Light indices.
-  std::span<const uint32_t> entries() const { return std::span(list_).first(entries_); }
+  std::span<const uint32_t> entries() const { return list_.first(entries_); }
   uint64_t lights_in_frustum() const { return in_frustum_; }
   // The most entries of one froxel.
   uint32_t longest() const { return longest_; }
@@ -62,9 +71,14 @@ class FroxelLists {
   void bound(const FrameLights& lights, size_t p, bool by_depth, const BoundsConstants& constants);
   void emit(size_t p, bool by_depth, bool refinement, const BoundsConstants& constants, uint64_t max_entries);
   // The lists of one run of lights without pairs; false: not worth it.
-  bool sweep(const FrameInput& frame, bool by_depth, uint64_t max_entries);
+  bool sweep(const FrameInput& frame, bool by_depth, uint64_t max_entries, UploadMemory* memory,
+             uint32_t slot);
   // Counting sort of all pairs into the lists.
   void scatter(Threads& threads);
+  void build(const FrameInput& frame, const FroxelSettings& settings, uint64_t max_entries,
+             UploadMemory* memory, uint32_t slot, Spans& spans);
+  // Takes room for the lists' entries.
+  void begin_list(uint64_t entries, UploadMemory* memory, uint32_t slot);
   [[noreturn]] void too_many(uint64_t entries, uint64_t limit) const;
 
   std::string owner_;
@@ -79,7 +93,8 @@ class FroxelLists {
   DepthOrder order_;
   SweepMemory sweep_memory_;
   std::vector<LightBox> boxes_;  // by place in visible_
-  std::vector<uint32_t> offsets_, list_;
+  std::vector<uint32_t> offsets_, own_list_;
+  std::span<uint32_t> list_;  // own_list_ or upload memory
   size_t entries_ = 0;
   uint32_t longest_ = 0;
   uint64_t in_frustum_ = 0;

@@ -174,13 +174,16 @@ class Sweep {
   void widen() {
     const hn::ScalableTag<uint32_t> words;
     const hn::Rebind<Lane, decltype(words)> narrow;
-    for (size_t i = 0; i < waiting_; i += hn::Lanes(words)) {
+    uint32_t* to = list_ + written_;
+    size_t i = 0;
+    for (; i + hn::Lanes(words) <= waiting_; i += hn::Lanes(words)) {
       const auto lights = hn::LoadU(narrow, &m_.list[i]);
       if constexpr (sizeof(Lane) == sizeof(uint32_t))
-        hn::StoreU(lights, words, list_ + written_ + i);
+        hn::StoreU(lights, words, to + i);
       else
-        hn::StoreU(hn::PromoteTo(words, lights), words, list_ + written_ + i);
+        hn::StoreU(hn::PromoteTo(words, lights), words, to + i);
     }
+    for (; i < waiting_; ++i) to[i] = m_.list[i];
     written_ += waiting_;
     waiting_ = 0;
   }

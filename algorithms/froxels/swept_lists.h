@@ -38,8 +38,8 @@ namespace simd {
 uint32_t sweep_lanes(size_t light_end, const FroxelGrid& grid);
 // Writes the lights of all froxels one after the other, each froxel's in the order of the boxes
 // boxes[places[0..count)], or without places boxes[0..count), and offsets[0 .. cells]: where each froxel's
-// begin, and the end of the last. `list` has room for all and the vector padding; whole vectors are written.
-// Returns the longest list.
+// begin, and the end of the last. `list` has room for all and is written from front to back. Returns the
+// longest list.
 uint32_t sweep(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
                size_t light_end, SweepMemory& memory, uint32_t* offsets, uint32_t* list);
 }  // namespace simd

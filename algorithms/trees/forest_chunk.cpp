@@ -135,15 +135,18 @@ HWY_INLINE uint64_t bound_leaves(ForestChunk& chunk, const DepthReach* reaches, 
   return sum.total();
 }
 
-// The depths of lights[0..count) one after the other.
-HWY_INLINE void collect(const uint32_t* lights, size_t count, const DepthReach* reach_of_light,
+// The depths of the first `count` of some lights one after the other.
+HWY_INLINE void collect(std::span<const uint32_t> lights, size_t count, const DepthReach* reach_of_light,
                         DepthReach* reaches) {
   // They lie anywhere in memory, and which comes is known long before.
-  constexpr uint32_t ahead = 32;
-  for (size_t i = 0; i < count; ++i) {
+  constexpr size_t ahead = 32;
+  const size_t known = lights.size() < ahead ? 0 : std::min(count, lights.size() - ahead);
+  for (size_t i = 0; i < known; ++i) {
     hwy::Prefetch(&reach_of_light[lights[i + ahead]]);
     std::memcpy(&reaches[i], &reach_of_light[lights[i]], sizeof *reaches);
   }
+  for (size_t i = known; i < count; ++i)
+    std::memcpy(&reaches[i], &reach_of_light[lights[i]], sizeof *reaches);
 }
 
 // What a list is: one leaf, or where its count field is too small several, one after the other.
@@ -200,7 +203,7 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
                  std::span<const FroxelGrid::DepthRange> cell_depths, TreeCell* cells, ForestChunk& chunk) {
   const uint32_t columns = lists.grid().columns, tiles = lists.grid().tiles();
   const uint32_t* offsets = lists.offsets().data();
-  const uint32_t* entries = lists.entries().data();
+  const std::span<const uint32_t> entries = lists.entries();
   const DepthReach* reach_of_light = lists.reach_of_light().data();
   StepSum unused;
   size_t count = 0;
@@ -217,7 +220,7 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
     const uint32_t short_list = std::max(settings.lights_per_leaf, settings.list_lights);
     if (longest > short_list || settings.list_nodes) {
       reserve_padded(chunk.reaches, row_lights);
-      collect(entries + row_first, row_lights, reach_of_light, chunk.reaches.data());
+      collect(entries.subspan(row_first), row_lights, reach_of_light, chunk.reaches.data());
       // Room for full trees of twice the leaves, or the nodes of lists.
       const size_t leaves = row_lights / settings.lights_per_leaf + columns;
       reserve_padded(chunk.low, 2 * leaves);

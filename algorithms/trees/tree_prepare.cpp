@@ -27,7 +27,7 @@ TreePrepare::TreePrepare(const std::string& owner, const FroxelSettings& froxels
 }
 
 void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) {
-  lists_.build(frame, froxels_, memory.limit() / sizeof(uint32_t), spans);
+  lists_.build(frame, froxels_, memory, indices_slot, spans);
   {
     auto span = spans.span("build");
     forest_.build(lists_, trees_, *frame.threads);
@@ -49,12 +49,10 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
   std::memcpy(memory.map(cells_slot, cells.size_bytes()).data(), cells.data(), cells.size_bytes());
   forest_.copy_nodes(reinterpret_cast<gpu_data::TreeNode*>(memory.map(nodes_slot, node_bytes).data()),
                      *frame.threads);
-  const auto entries = lists_.entries();
-  const auto indices = memory.map(indices_slot, entries.size_bytes());
-  if (!entries.empty()) std::memcpy(indices.data(), entries.data(), entries.size_bytes());
+  lists_.upload_entries(memory, indices_slot);
 
   counters_.in_frustum = lists_.lights_in_frustum();
-  counters_.list_bytes = cells.size_bytes() + node_bytes + entries.size_bytes();
+  counters_.list_bytes = cells.size_bytes() + node_bytes + lists_.entries().size_bytes();
   counters_.list_cells = forest_.list_cells();
   counters_.tree_cells = forest_.tree_cells();
 }

@@ -111,6 +111,10 @@ std::span<std::byte> ShadedAlgorithm::map(uint32_t slot, size_t bytes) {
   return buffers_.at(slot).map(bytes);
 }
 
+bool ShadedAlgorithm::cached(uint32_t slot) const {
+  return buffers_.at(slot).host().cached();
+}
+
 size_t ShadedAlgorithm::limit() const {
   return device_.limits().storage_buffer_range;
 }

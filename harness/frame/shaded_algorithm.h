@@ -41,6 +41,7 @@ class ShadedAlgorithm final : private UploadMemory {
  private:
   std::span<std::byte> map(uint32_t slot, size_t bytes) override;
   size_t limit() const override;
+  bool cached(uint32_t slot) const override;
   gpu::Bindings bindings(const DeviceFrame& frame) const;
   // Records list building; what the shading pass binds.
   gpu::Bindings cull(gpu::Commands& commands, const DeviceFrame& frame, const FrameInput& input);

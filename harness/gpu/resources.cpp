@@ -89,6 +89,7 @@ Buffer::Buffer(Device& owner, size_t bytes, MemoryKind kind, const std::string& 
   impl_->buffer.bindMemory(*impl_->memory, 0);
   impl_->device_local =
       static_cast<bool>(device.memory.memoryTypes[type].propertyFlags & Property::eDeviceLocal);
+  impl_->cached = static_cast<bool>(device.memory.memoryTypes[type].propertyFlags & Property::eHostCached);
   if (kind != MemoryKind::device)
     impl_->mapped = {static_cast<std::byte*>(impl_->memory.mapMemory(0, VK_WHOLE_SIZE)), bytes};
 }
@@ -101,6 +102,9 @@ std::span<std::byte> Buffer::mapped() const {
 }
 bool Buffer::device_local() const {
   return impl_->device_local;
+}
+bool Buffer::cached() const {
+  return impl_->cached;
 }
 
 std::span<std::byte> UploadBuffer::map(size_t bytes) {

@@ -30,6 +30,7 @@ class Buffer {
   size_t bytes() const { return bytes_; }
   std::span<std::byte> mapped() const;  // empty for MemoryKind::device
   bool device_local() const;
+  bool cached() const;  // by the CPU
 
   struct Impl;
   Impl& impl() const { return *impl_; }

@@ -41,7 +41,7 @@ struct Buffer::Impl {
   vk::raii::DeviceMemory memory = nullptr;
   vk::raii::Buffer buffer = nullptr;
   std::span<std::byte> mapped;
-  bool device_local = false;
+  bool device_local = false, cached = false;
 };
 
 struct Image::Impl {

@@ -10,6 +10,7 @@
 #include "algorithms/froxels/reference_lists.h"
 #include "binning_cases.h"
 #include "harness/base/error.h"
+#include "plain_memory.h"
 
 namespace ml {
 namespace {
@@ -66,6 +67,34 @@ TEST(FroxelLists, VectorCodeGivesTheReferencesBits) {
   // Both ways of writing lists were taken.
   EXPECT_GT(swept, 30u);
   EXPECT_LT(swept, 270u);
+}
+
+TEST(FroxelLists, AreTheSameWhereTheyAreBuiltInUploadMemory) {
+  uint32_t swept = 0;
+  for (uint32_t seed = 0; seed < 60; ++seed) {
+    Random random(5000 + seed);
+    Camera camera = random_camera(random);
+    const auto make = seed % 2 ? random_small_lights : random_lights;
+    // One light more than 8, 16 bits can number, too.
+    const uint32_t count = seed % 10 == 9 ? 65537 : seed % 10 == 8 ? 257 : random.below(600);
+    BinningFrame fixture(make(random, count, camera), camera, 320, 180);
+    const FroxelSettings settings = random_settings(random);
+    FroxelLists own{"clustered"}, in_place{"clustered"}, staged{"clustered"};
+    Spans spans;
+    PlainMemory cached, uncached{false};
+    own.build(fixture.frame, settings, no_limit, spans);
+    in_place.build(fixture.frame, settings, cached, 0, spans);
+    staged.build(fixture.frame, settings, uncached, 0, spans);
+    in_place.upload_entries(cached, 0);
+    staged.upload_entries(uncached, 0);
+    const auto bytes = std::as_bytes(own.entries());
+    ASSERT_TRUE(std::ranges::equal(cached.all(), bytes)) << "seed " << seed;
+    ASSERT_TRUE(std::ranges::equal(uncached.all(), bytes)) << "seed " << seed;
+    ASSERT_TRUE(std::ranges::equal(in_place.entries(), own.entries())) << "seed " << seed;
+    swept += own.swept();
+  }
+  EXPECT_GT(swept, 5u);
+  EXPECT_LT(swept, 55u);
 }
 
 TEST(FroxelLists, RefinementOnlyTakesAway) {

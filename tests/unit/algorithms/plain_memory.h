@@ -10,12 +10,14 @@ namespace ml::test {
 
 class PlainMemory final : public UploadMemory {
  public:
+  explicit PlainMemory(bool cached = true) : cached_(cached) {}
   std::span<std::byte> map(uint32_t slot, size_t bytes) override {
     if (slots_[slot].size() < bytes) slots_[slot].resize(bytes);
     used_[slot] = bytes;
     return std::span(slots_[slot]).first(bytes);
   }
   size_t limit() const override { return size_t{1} << 30; }
+  bool cached(uint32_t) const override { return cached_; }
 
   // What the last prepare() wrote, slot by slot.
   std::vector<std::byte> all() const {
@@ -27,6 +29,7 @@ class PlainMemory final : public UploadMemory {
   }
 
  private:
+  bool cached_;
   std::array<std::vector<std::byte>, 8> slots_;
   std::array<size_t, 8> used_{};
 };
