@@ -57,6 +57,9 @@ struct FrameLights {
   // What shapes other than omni need (axes, cone, length, extents; bound_radius is `radius` above); same
   // length as core, or empty when all lights are omni. Fields: shaders/shared/light.h.
   std::span<const gpu_data::LightExtra> extra;
+  // Which of the scene's lights each is: a light has the same number, below 2^23, in every frame in which it
+  // shines. Ascending. Empty: light i is number i.
+  std::span<const uint32_t> identity;
   size_t count() const { return x.size(); }
 };
 

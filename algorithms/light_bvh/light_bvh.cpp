@@ -72,16 +72,14 @@ class LightBvh final : public Algorithm {
   }
 
   // A lap through the frames begins with a fresh tree, so that every lap does the same work. A frame that is
-  // prepared again is only refitted. Lights that came or went leave no way to tell who is who: then the tree
-  // is built afresh.
+  // prepared again is only refitted.
   void update(const FrameInput& frame) {
     const bool same_frame = built_ && frame.index == last_frame_,
                next_frame = built_ && frame.index > last_frame_;
-    const bool known = tree_.lights() == frame.lights.count();
-    if (rebuild_ || !known || !(same_frame || next_frame)) {
+    if (rebuild_ || !(same_frame || next_frame)) {
       tree_.build(frame.lights);
     } else {
-      tree_.refit(frame.lights);
+      tree_.follow(frame.lights);
       if (next_frame) tree_.reinsert(frame.lights, frame.index % reinsertion_period, reinsertion_period);
     }
     built_ = true;
@@ -109,10 +107,10 @@ AlgorithmEntry light_bvh_entry() {
   entry.info.cpu_stages = {"cull", "build", "upload"};
   entry.parameters = {
       ParameterInfo::integer("branching", 8, 2, 8, "most children of a node"),
-      ParameterInfo::choice(
-          "update", "refit", {"refit", "rebuild"},
-          "moving lights: refit the tree and insert one light in 64 anew each frame, or build it "
-          "afresh (surface area heuristic)"),
+      ParameterInfo::choice("update", "refit", {"refit", "rebuild"},
+                            "moving lights: refit the tree, insert those that came and one of the others in "
+                            "64 anew each frame, "
+                            "or build it afresh (surface area heuristic)"),
       ParameterInfo::choice("node_bytes", "24", {"24", "32"},
                             "bytes of a node: packed, or padded to two words of 16"),
   };

@@ -24,8 +24,20 @@ Box box_of(const FrameLights& lights, uint32_t light) {
   return {center - lights.radius[light], center + lights.radius[light]};
 }
 
+uint32_t identity_of(const FrameLights& lights, uint32_t light) {
+  return lights.identity.empty() ? light : lights.identity[light];
+}
+
+uint32_t identity_end(const FrameLights& lights) {
+  const auto count = static_cast<uint32_t>(lights.count());
+  return count == 0 ? 0 : identity_of(lights, count - 1) + 1;
+}
+
 // Deeper than any useful tree; beyond it ranges are halved, so that lights at one point end somewhere.
 constexpr uint32_t deepest_split = 48, bins = 12;
+
+// The light of a leaf that is about to be taken out.
+constexpr uint32_t gone = SphereTree::none - 1;
 
 }  // namespace
 
@@ -51,7 +63,7 @@ uint32_t SphereTree::build_range(const FrameLights& lights, uint32_t begin, uint
     const uint32_t light = items_[begin];
     nodes_[node].light = light;
     nodes_[node].box = box_of(lights, light);
-    leaf_of_light_[light] = node;
+    leaf_of_light_[identity_of(lights, light)] = node;
     return node;
   }
   auto center = [&](uint32_t light, int axis) {
@@ -162,11 +174,13 @@ void SphereTree::build(const FrameLights& lights) {
   nodes_.clear();
   free_.clear();
   root_ = none;
-  leaf_of_light_.resize(lights_);
+  leaf_of_light_.assign(std::max<size_t>(leaf_of_light_.size(), identity_end(lights)), none);
   items_.resize(lights_);
   std::iota(items_.begin(), items_.end(), 0u);
   if (lights_ > 0) {
-    nodes_.reserve(2 * size_t{lights_});
+    // For those that will come, too.
+    for (std::vector<uint32_t>* list : {&free_, &order_, &stack_}) list->reserve(2 * leaf_of_light_.size());
+    nodes_.reserve(2 * leaf_of_light_.size());
     root_ = build_range(lights, 0, lights_, 0);
     if (nodes_[root_].light == none) collapse(root_);
   }
@@ -177,6 +191,44 @@ void SphereTree::fit(uint32_t node) {
   Node& n = nodes_[node];
   n.box = nodes_[n.child[0]].box;
   for (uint32_t c = 1; c < n.children; ++c) n.box = around(n.box, nodes_[n.child[c]].box);
+}
+
+void SphereTree::follow(const FrameLights& lights) {
+  const auto count = static_cast<uint32_t>(lights.count());
+  leaf_of_light_.resize(std::max<size_t>(leaf_of_light_.size(), identity_end(lights)), none);
+  // Every leaf gets its light's new place, or none.
+  uint32_t stay = 0;
+  for (uint32_t leaf : leaf_of_light_)
+    if (leaf != none) nodes_[leaf].light = gone;
+  for (uint32_t light = 0; light < count; ++light) {
+    const uint32_t leaf = leaf_of_light_[identity_of(lights, light)];
+    if (leaf == none) continue;
+    nodes_[leaf].light = light;
+    ++stay;
+  }
+  const uint32_t came = count - stay, went = lights_ - stay;
+  if (came + went > stay) return build(lights);
+  lights_ = count;
+  if (went > 0)
+    for (uint32_t& leaf : leaf_of_light_) {
+      if (leaf == none || nodes_[leaf].light != gone) continue;
+      remove(leaf);
+      free_.push_back(leaf);
+      leaf = none;
+    }
+  if (went > 0) list_bottom_up();
+  refit(lights);
+  if (came == 0) return;
+  for (uint32_t light = 0; light < count; ++light) {
+    uint32_t& leaf = leaf_of_light_[identity_of(lights, light)];
+    if (leaf != none) continue;
+    leaf = new_node();
+    nodes_[leaf].light = light;
+    nodes_[leaf].box = box_of(lights, light);
+    insert(leaf);
+  }
+  list_bottom_up();
+  refit(lights);
 }
 
 void SphereTree::refit(const FrameLights& lights) {
@@ -255,8 +307,9 @@ void SphereTree::insert(uint32_t leaf) {
 
 void SphereTree::reinsert(const FrameLights& lights, uint32_t first, uint32_t stride) {
   if (lights_ < 3) return;
-  for (uint32_t light = first; light < lights_; light += stride) {
-    const uint32_t leaf = leaf_of_light_[light];
+  for (size_t identity = first; identity < leaf_of_light_.size(); identity += stride) {
+    const uint32_t leaf = leaf_of_light_[identity];
+    if (leaf == none) continue;
     remove(leaf);
     insert(leaf);
   }

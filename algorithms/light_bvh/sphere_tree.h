@@ -35,9 +35,12 @@ class SphereTree {
   // A fresh tree: binned surface area heuristic, binary, then the largest children opened until a node is
   // full.
   void build(const FrameLights& lights);
-  // New bounds for the same tree; lights.count() must be what it was built with.
-  void refit(const FrameLights& lights);
-  // Takes lights first, first + stride, ... out and inserts each where it costs least.
+  // The tree for the lights as they are now: lights that went (by identity) are taken out, those that stayed
+  // get new bounds, those that came are inserted where each costs least. Built afresh when more came and went
+  // than stayed; a tree that was never built has no lights.
+  void follow(const FrameLights& lights);
+  // Takes lights out whose identity is first, first + stride, ... and inserts each where it costs least. The
+  // lights must be those of the last build() or follow().
   void reinsert(const FrameLights& lights, uint32_t first, uint32_t stride);
 
   uint32_t root() const { return root_; }  // none: no lights
@@ -50,6 +53,7 @@ class SphereTree {
   uint32_t new_node();
   uint32_t build_range(const FrameLights& lights, uint32_t begin, uint32_t end, uint32_t depth);
   void collapse(uint32_t node);
+  void refit(const FrameLights& lights);
   void remove(uint32_t leaf);
   void insert(uint32_t leaf);
   void fit(uint32_t node);
@@ -58,7 +62,7 @@ class SphereTree {
   uint32_t branching_;
   uint32_t root_ = none, lights_ = 0;
   std::vector<Node> nodes_;
-  std::vector<uint32_t> free_, leaf_of_light_, items_, right_items_, order_, stack_;
+  std::vector<uint32_t> free_, leaf_of_light_ /* by identity */, items_, right_items_, order_, stack_;
 };
 
 }  // namespace ml

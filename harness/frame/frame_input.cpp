@@ -141,11 +141,12 @@ FrameSequence::FrameSequence(const Scene& scene, const LightSet& lights, const C
 const FrameInput& FrameSequence::at(uint32_t index) {
   assert(index < frames_);
   camera_ = path_.sample(index, frames_, width_, height_, scene_.near, scene_.far);
-  set_.at(index, frames_, path_.duration(), active_);
+  set_.at(index, frames_, path_.duration(), active_, &identity_);
   storage_.fill(active_, camera_.position, shapes_);
   input_.index = index;
   input_.view = view_data(camera_, width_, height_, static_cast<uint32_t>(active_.size()));
   input_.lights = storage_.lights();
+  input_.lights.identity = identity_;
   return input_;
 }
 

@@ -57,6 +57,7 @@ class FrameSequence {
   uint32_t frames_, width_, height_, shapes_;
   Camera camera_;
   std::vector<Light> active_;
+  std::vector<uint32_t> identity_;
   FrameLightStorage storage_;
   FrameInput input_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "harness/scene/light_clumps.h"
@@ -81,9 +82,11 @@ double script_time(uint32_t frame, uint32_t frames, double duration) {
 }
 
 void run_script(LightScript script, uint32_t seed, double seconds, std::span<const Light> base,
-                std::vector<Light>& out) {
+                std::vector<Light>& out, std::vector<uint32_t>* identity) {
+  if (identity) identity->resize(base.size());
   if (script == LightScript::none) {
     out.assign(base.begin(), base.end());
+    if (identity) std::iota(identity->begin(), identity->end(), 0u);
     return;
   }
   // Overwritten in place: clearing first would make every light anew.
@@ -93,9 +96,11 @@ void run_script(LightScript script, uint32_t seed, double seconds, std::span<con
   for (uint32_t i = 0; i < base.size(); ++i) {
     Light& light = out[shining];
     light = base[i];
+    if (identity) (*identity)[shining] = i;
     if (shines(script, seed_hash, i, seconds, light)) ++shining;
   }
   out.resize(shining);
+  if (identity) identity->resize(shining);
 }
 
 }  // namespace ml

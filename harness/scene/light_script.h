@@ -14,9 +14,9 @@ namespace ml {
 double script_time(uint32_t frame, uint32_t frames, double duration);
 
 // The lights of `base` as they are at `seconds`, in their order, without those that do not shine then. Light
-// i of `base` is number i of `seed`. `out` is overwritten; nothing is allocated once it has the capacity of
-// `base`.
+// i of `base` is number i of `seed`. `out` and `identity` are overwritten: identity[k] is the place of out[k]
+// in `base`; may be null. Nothing is allocated once they have the capacity of `base`.
 void run_script(LightScript script, uint32_t seed, double seconds, std::span<const Light> base,
-                std::vector<Light>& out);
+                std::vector<Light>& out, std::vector<uint32_t>* identity);
 
 }  // namespace ml

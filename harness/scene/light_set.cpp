@@ -186,8 +186,9 @@ LightSet::LightSet(const LightSpec& spec, const Scene& scene) : spec_(adapted(sp
   }
 }
 
-void LightSet::at(uint32_t frame, uint32_t frames, double duration, std::vector<Light>& out) const {
-  run_script(spec_.script, spec_.seed, script_time(frame, frames, duration), lights_, out);
+void LightSet::at(uint32_t frame, uint32_t frames, double duration, std::vector<Light>& out,
+                  std::vector<uint32_t>* identity) const {
+  run_script(spec_.script, spec_.seed, script_time(frame, frames, duration), lights_, out, identity);
 }
 
 }  // namespace ml

@@ -81,9 +81,11 @@ class LightSet {
   // spawn: each light has a seeded life and pause, and fades in and out by its size (scale_size); about 70 %
   // shine at once. orbit: the lights of a clump circle together, those of no clump drift, and all come and go
   // as with spawn. A camera that stands still (duration 0) runs at 60 frames a second, so that its lights
-  // still move. Never returns a light that rejection_reason() refuses. Reuses `out`; allocates nothing once
-  // `out` has its capacity.
-  void at(uint32_t frame, uint32_t frames, double duration, std::vector<Light>& out) const;
+  // still move. Never returns a light that rejection_reason() refuses. `identity`: the place of each in
+  // base(), which is the same light's in every frame; may be null. Reuses both; allocates nothing once they
+  // have their capacity.
+  void at(uint32_t frame, uint32_t frames, double duration, std::vector<Light>& out,
+          std::vector<uint32_t>* identity = nullptr) const;
 
   const std::vector<Light>& base() const { return lights_; }  // accepted lights before scripting
   const Rejections& rejected() const { return rejected_; }

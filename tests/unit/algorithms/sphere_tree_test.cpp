@@ -104,11 +104,46 @@ TEST(SphereTree, StaysSoundWhateverIsDoneToIt) {
       expect_sound(tree, lights.now, branching);
       for (uint32_t frame = 1; frame < 12; ++frame) {
         lights.move(random, 2);
-        tree.refit(lights.now);
+        tree.follow(lights.now);
         expect_sound(tree, lights.now, branching);
         tree.reinsert(lights.now, frame % 4, 4);
         expect_sound(tree, lights.now, branching);
         expect_complete(tree, lights.now, random);
+      }
+    }
+}
+
+TEST(SphereTree, LightsComeAndGo) {
+  for (uint32_t branching : {2u, 3u, 8u})
+    for (uint32_t count : {1u, 2u, 5u, 40u, 600u}) {
+      Random random(branching * 1000 + count);
+      MovingLights scene(random, count);
+      SphereTree tree(branching);
+      MovingLights now(random, 0);
+      std::vector<uint32_t> identity;
+      std::vector<uint8_t> shines(count, 1);
+      for (uint32_t frame = 0; frame < 40; ++frame) {
+        // Mostly a few, at times half of them, and once all.
+        const uint32_t change = frame == 20 ? 1 : frame % 7 == 0 ? 2 : 16;
+        for (uint8_t& flag : shines)
+          if (random.below(change) == 0) flag = !flag;
+        scene.move(random, 1);
+        now.lights.clear();
+        identity.clear();
+        for (uint32_t i = 0; i < count; ++i)
+          if (shines[i]) {
+            now.lights.push_back(scene.lights[i]);
+            identity.push_back(i);
+          }
+        now.fill();
+        now.now.identity = identity;
+        tree.follow(now.now);
+        ASSERT_EQ(tree.lights(), now.lights.size());
+        expect_sound(tree, now.now, branching);
+        tree.reinsert(now.now, frame % 4, 4);
+        expect_sound(tree, now.now, branching);
+        expect_complete(tree, now.now, random);
+        if (testing::Test::HasFailure()) return;
       }
     }
 }
@@ -133,7 +168,7 @@ TEST(SphereTree, RefittingAnUnchangedFrameChangesNothing) {
   std::vector<uint8_t> all(300, 1);
   SpherePacking before, after;
   before.build(tree, lights.now, all);
-  tree.refit(lights.now);
+  tree.follow(lights.now);
   after.build(tree, lights.now, all);
   ASSERT_EQ(before.nodes().size(), after.nodes().size());
   EXPECT_EQ(std::memcmp(before.nodes().data(), after.nodes().data(), before.nodes().size_bytes()), 0);

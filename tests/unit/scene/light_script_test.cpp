@@ -87,5 +87,25 @@ TEST(LightScripts, ASteadyFrameAllocatesNothing) {
   }
 }
 
+// Spawning lights stand still, so each can be told by its place.
+TEST(LightScripts, IdentityIsThePlaceInTheSet) {
+  for (LightScript script : {LightScript::none, LightScript::spawn}) {
+    LightSpec spec = spec_of(500);
+    spec.script = script;
+    const LightSet set(spec, level());
+    std::vector<Light> out;
+    std::vector<uint32_t> identity;
+    for (uint32_t frame = 0; frame < 20; ++frame) {
+      set.at(frame, 20, 30, out, &identity);
+      ASSERT_EQ(identity.size(), out.size());
+      for (size_t i = 0; i < out.size(); ++i) {
+        EXPECT_TRUE(i == 0 || identity[i - 1] < identity[i]);
+        ASSERT_EQ(out[i].position, set.base().at(identity[i]).position) << frame;
+      }
+    }
+    EXPECT_EQ(out.size() == set.base().size(), script == LightScript::none);
+  }
+}
+
 }  // namespace
 }  // namespace ml
