@@ -7,6 +7,7 @@
 #include "pruned_lists.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 16) const uint BOUNDS = ML_BOUNDS_HULL;
 layout(scalar, binding = 16) readonly buffer Visible {
   VisibleHeader visible;
   uint visible_lights[];
@@ -125,8 +126,13 @@ void main() {
   const uint place = gl_GlobalInvocationID.x;
   if (place >= visible.count) return;
   const LightCore light = lights[visible_lights[place]];
-  const WindowBounds hull = hull_bounds(light_hull(light)), ball = ball_bounds(light);
-  const vec3 low = max(hull.low, ball.low), high = min(hull.high, ball.high);
+  const WindowBounds ball = ball_bounds(light);
+  vec3 low = ball.low, high = ball.high;
+  if (BOUNDS != ML_BOUNDS_BALL) {
+    const WindowBounds hull = hull_bounds(light_hull(light, BOUNDS == ML_BOUNDS_HULL));
+    low = max(hull.low, low);
+    high = min(hull.high, high);
+  }
   const vec2 edge = vec2(view.left_edge, view.top_edge);
   const vec2 pixels = vec2(view.resolution) / (vec2(view.right_edge, view.bottom_edge) - edge);
   const vec2 a = (low.xy - edge) * pixels, b = (high.xy - edge) * pixels;  // rows grow downwards: pixels.y < 0

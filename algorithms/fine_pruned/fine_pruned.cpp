@@ -18,11 +18,21 @@ enum Slot : uint32_t { visible_slot };
 
 constexpr uint32_t probes_constant = 10;  // EFFECT_PROBES in shaders/light_eval.glsl
 
+uint32_t prune_of(const std::string& word) {
+  return word == "facing" ? ML_PRUNE_FACING : word == "fine" ? ML_PRUNE_FINE : ML_PRUNE_COARSE;
+}
+
+uint32_t bounds_of(const std::string& word) {
+  return word == "ball" ? ML_BOUNDS_BALL : word == "box" ? ML_BOUNDS_BOX : ML_BOUNDS_HULL;
+}
+
 class FinePruned final : public Algorithm {
  public:
   explicit FinePruned(const Parameters& p) : together_(walk_together(p)) {
     settings_.packed = p.choice("caps") == "paper";
-    settings_.fine = p.choice("prune") == "fine";
+    settings_.prune = prune_of(p.choice("prune"));
+    settings_.bounds = bounds_of(p.choice("bounds"));
+    settings_.tile_depths = p.boolean("tile_depths");
   }
 
   void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override {
@@ -97,8 +107,15 @@ AlgorithmEntry fine_pruned_entry() {
   entry.info.cpu_stages = {"cull", "sort", "upload"};
   entry.info.gpu_stages = {"bounds", "coarse", "lists", "shade"};
   entry.parameters = {
-      ParameterInfo::choice("prune", "fine", {"fine", "coarse"},
-                            "lists by true volumes against pixels, or by screen bounds alone (section 2.4)"),
+      ParameterInfo::choice("prune", "fine", {"fine", "coarse", "facing"},
+                            "lists by true volumes against pixels (section 2.4), by screen bounds alone, or "
+                            "by true volumes and the way surfaces face"),
+      ParameterInfo::choice("bounds", "hull", {"hull", "box", "ball"},
+                            "screen bounds of a light's narrowed hull and its ball, of a straight box "
+                            "and its ball, or of its ball (sections 2.2 and 2.4)"),
+      ParameterInfo::boolean("tile_depths", true,
+                             "coarse lists by the least and greatest depth of a tile too, or by its "
+                             "rectangle alone (section 2.3)"),
       ParameterInfo::choice("caps", "exact", {"exact", "paper"},
                             "lists of any length, or 64 coarse and 24 pruned lights a tile, 1024 in view, "
                             "loss reported (section 2.5)"),

@@ -26,13 +26,13 @@ vec3 any_across(vec3 axis) { return normalize(cross(axis, abs(axis.z) < 0.7 ? ve
 float sum_of_sizes(vec3 p) { return abs(p.x) + abs(p.y) + abs(p.z); }
 
 // A cone is narrowed to its apex where that leaves less volume than the straight box: (2 r tan a)^2 r / 3 < (2 r sin a)^2 r, cos a > 3^-1/2.
-void cone_hull(LightCore light, LightExtra extra, bool wedge, inout LightHull hull) {
+void cone_hull(LightCore light, LightExtra extra, bool wedge, bool narrowed, inout LightHull hull) {
   const float along = wedge ? extra.half_length : 0.0;
   const float cosine = max(extra.cos_outer - cone_margin, -1.0), sine = sqrt(max(1.0 - cosine * cosine, 0.0));
   hull.w = to_view(extra.direction);
   hull.u = wedge ? to_view(extra.side) : any_across(hull.w);
   hull.high = light.radius;
-  if (cosine > 0.577) {
+  if (narrowed && cosine > 0.577) {
     const float across = light.radius * sine / cosine;
     hull.low = 0.0;
     hull.top = vec2(along, 0.0);
@@ -44,7 +44,8 @@ void cone_hull(LightCore light, LightExtra extra, bool wedge, inout LightHull hu
   }
 }
 
-LightHull light_hull(LightCore light) {
+// `narrowed`: with a scale of its own at the top; else a box with straight sides.
+LightHull light_hull(LightCore light, bool narrowed) {
   const uint id = light.id_shape & ML_LIGHT_ID_MASK;
   LightHull hull;
   hull.origin = to_view(light.position);
@@ -55,7 +56,7 @@ LightHull light_hull(LightCore light) {
   hull.base = hull.top = vec2(light.radius);
   const bool wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
   if (wedge || is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT)) {
-    cone_hull(light, extras[id], wedge, hull);
+    cone_hull(light, extras[id], wedge, narrowed, hull);
   } else if (is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE)) {
     hull.w = to_view(extras[id].side);
     hull.u = any_across(hull.w);

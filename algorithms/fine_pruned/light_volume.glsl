@@ -1,12 +1,18 @@
 // Whether points lie in a light's true volume (step 2(d)): four points at once, those of a thread. The same operations as light_sample()
-// where that decides by exactly rounded ones; a little wider where it divides or takes roots. The surface's normal is no part of the volume.
+// where that decides by exactly rounded ones; a little wider where it divides or takes roots. The surface's normal is no part of the volume,
+// but may be tested besides.
 #ifndef ML_LIGHT_VOLUME_GLSL
 #define ML_LIGHT_VOLUME_GLSL
 #include "light_hull.glsl"
+#include "pruned_lists.h"
+
+// With it a light holds a point only where the surface faces it.
+layout(constant_id = 17) const uint PRUNE = ML_PRUNE_FINE;
 
 struct FourPoints {
-  vec4 x, y, z;  // m, camera-relative, world axes
-  bvec4 lit;     // false for the sky
+  vec4 x, y, z;     // m, camera-relative, world axes
+  vec4 nx, ny, nz;  // the surface's normal; only for ML_PRUNE_FACING
+  bvec4 lit;        // false for the sky
 };
 
 // Vectors from the points to the light, and their squared lengths.
@@ -36,6 +42,14 @@ FourWays ways_to(FourPoints points, LightCore light, bool segment) {
 
 bvec4 both(bvec4 a, bvec4 b) { return bvec4(a.x && b.x, a.y && b.y, a.z && b.z, a.w && b.w); }
 
+// A point on the light is faced. Wider than what rounds where normals are unpacked.
+bvec4 faced(FourPoints points, FourWays ways, LightCore light) {
+  if (PRUNE != ML_PRUNE_FACING || is_probe(light)) return bvec4(true);
+  const vec4 projected = ways.x * points.nx + ways.y * points.ny + ways.z * points.nz;
+  const vec4 on_light = vec4(lessThan(ways.squared, vec4(on_point_distance_squared)));
+  return greaterThan(projected + on_light, -1e-5 * (abs(ways.x) + abs(ways.y) + abs(ways.z)));
+}
+
 bvec4 within_radius(FourPoints points, FourWays ways, LightCore light) {
   precise float squared = light.radius * light.radius;
   return both(points.lit, lessThan(ways.squared, vec4(squared)));
@@ -43,14 +57,15 @@ bvec4 within_radius(FourPoints points, FourWays ways, LightCore light) {
 
 // Omni lights and capsules.
 bool in_ball(FourPoints points, LightCore light) {
-  return any(within_radius(points, ways_to(points, light, is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE)), light));
+  const FourWays ways = ways_to(points, light, is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE));
+  return any(both(within_radius(points, ways, light), faced(points, ways, light)));
 }
 
 // Spots and wedges.
 bool in_cone(FourPoints points, LightCore light) {
   const bool wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
   const FourWays ways = ways_to(points, light, wedge);
-  const bvec4 near = within_radius(points, ways, light);
+  const bvec4 near = both(within_radius(points, ways, light), faced(points, ways, light));
   if (!wedge && !is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT) || !any(near)) return any(near);
   const LightExtra extra = extras[light.id_shape & ML_LIGHT_ID_MASK];
   const vec4 along = -(ways.x * extra.direction.x + ways.y * extra.direction.y + ways.z * extra.direction.z);
@@ -70,12 +85,13 @@ bvec4 between(FourWays ways, vec3 axis, float half_extent) {
 
 bool in_box_volume(FourPoints points, LightCore light) {
   const FourWays ways = ways_to(points, light, false);
-  if (!is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) return any(within_radius(points, ways, light));
+  const bvec4 facing = faced(points, ways, light);
+  if (!is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) return any(both(within_radius(points, ways, light), facing));
   const LightExtra extra = extras[light.id_shape & ML_LIGHT_ID_MASK];
   const vec3 half_extents = box_half_extents(extra);
   const bvec4 inside = both(both(between(ways, extra.side, half_extents.x), between(ways, box_up(extra), half_extents.y)),
                             between(ways, extra.direction, half_extents.z));
-  return any(both(points.lit, inside));
+  return any(both(both(points.lit, facing), inside));
 }
 
 #endif

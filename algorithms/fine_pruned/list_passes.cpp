@@ -13,11 +13,9 @@ namespace {
 // Values of MODE in tiles.comp.
 enum Mode : uint32_t { mode_count, mode_lists, mode_packed };
 
-std::vector<gpu::Constant> constants(const std::vector<gpu::Constant>& shared, Mode mode, bool fine) {
-  std::vector<gpu::Constant> list = shared;
-  list.push_back({16, mode});
-  list.push_back({17, fine});
-  return list;
+std::vector<gpu::Constant> with(std::vector<gpu::Constant> shared, std::initializer_list<gpu::Constant> own) {
+  shared.insert(shared.end(), own);
+  return shared;
 }
 
 uint32_t tiles_along(uint32_t pixels) {
@@ -30,12 +28,15 @@ ListPasses::ListPasses(gpu::Device& device, const std::vector<gpu::Constant>& sh
                        const PruneSettings& settings)
     : device_(device),
       settings_(settings),
-      bounds_(device, fine_pruned_bounds, "fine_pruned: bounds", shared),
+      bounds_(device, fine_pruned_bounds, "fine_pruned: bounds", with(shared, {{16, settings.bounds}})),
       lists_(device, fine_pruned_tiles, "fine_pruned: lists",
-             constants(shared, settings.packed ? mode_packed : mode_lists, settings.fine)) {
+             with(shared, {{16, settings.packed ? mode_packed : mode_lists},
+                           {17, settings.prune},
+                           {18, settings.tile_depths}})) {
   if (!settings.packed) {
-    count_ = std::make_unique<gpu::ComputeProgram>(device, fine_pruned_tiles, "fine_pruned: coarse",
-                                                   constants(shared, mode_count, false));
+    count_ = std::make_unique<gpu::ComputeProgram>(
+        device, fine_pruned_tiles, "fine_pruned: coarse",
+        with(shared, {{16, mode_count}, {17, ML_PRUNE_COARSE}, {18, settings.tile_depths}}));
     offsets_ = std::make_unique<gpu::ComputeProgram>(device, fine_pruned_offsets, "fine_pruned: offsets");
   }
   for (Grown* grown : {&light_bounds_, &tile_lists_, &list_lights_, &packed_lists_, &tile_counts_})

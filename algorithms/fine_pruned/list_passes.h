@@ -12,8 +12,10 @@ namespace ml {
 
 struct PruneSettings {
   bool packed = false;  // the chapter's lists and limits
-  bool fine = true;     // false: coarse lists are final
-  bool probes = false;  // a list of probe lights beside that of direct ones
+  uint32_t prune = ML_PRUNE_FINE;
+  uint32_t bounds = ML_BOUNDS_HULL;
+  bool tile_depths = true;  // false: coarse lists by the tiles' rectangles alone
+  bool probes = false;      // a list of probe lights beside that of direct ones
   uint32_t packed_words() const { return (probes ? 2 : 1) * ML_PACKED_WORDS; }  // of a tile
 };
 

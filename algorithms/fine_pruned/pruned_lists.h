@@ -12,6 +12,16 @@ ML_NAMESPACE_BEGIN
 #define ML_PACKED_LIGHTS 24u     // in a tile's list of direct lights, and in that of probe lights
 #define ML_PACKED_VISIBLE 1024u  // in view: 10-bit indices
 
+// What becomes of a tile's coarse list.
+#define ML_PRUNE_COARSE 0u  // it is final
+#define ML_PRUNE_FINE 1u    // lights whose volume holds a pixel's point are left: the chapter's
+#define ML_PRUNE_FACING 2u  // the same, if the surface there faces the light
+
+// What the screen bounds of a light are bounds of.
+#define ML_BOUNDS_HULL 0u  // the hull and the ball around the light: the chapter's
+#define ML_BOUNDS_BOX 1u   // the same with a hull that is not narrowed towards a cone's apex
+#define ML_BOUNDS_BALL 2u  // the ball alone
+
 // In front of the visible lights' indices, which are sorted: direct lights before probe lights, and each by
 // type: balls (omni, capsule), cones (spot, wedge), boxes. A light's place in that order is its visible
 // index. Tiles' lists keep the order, so a list's direct lights and its probe lights are two lists, one

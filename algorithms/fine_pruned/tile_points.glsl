@@ -4,6 +4,8 @@
 #include "light_volume.glsl"
 #include "pruned_lists.h"
 
+layout(constant_id = 18) const bool TILE_DEPTHS = true;  // false: tiles have no bounds in depth
+
 shared uint depth_low, depth_high;  // bits of the tile's depths, which are positive and so in order
 
 FourPoints points;
@@ -26,6 +28,13 @@ void load_points() {
     if (!points.lit[i]) continue;
     const float depth = depth_from_reversed(reversed);
     const vec3 position = position_from_depth(pixel, depth);
+    if (PRUNE == ML_PRUNE_FACING) {
+      SurfacePoint surface;
+      surface_unpack(pixel, reversed, texelFetch(Surface, ivec2(pixel), 0).xy, surface);
+      points.nx[i] = surface.normal.x;
+      points.ny[i] = surface.normal.y;
+      points.nz[i] = surface.normal.z;
+    }
     points.x[i] = position.x;
     points.y[i] = position.y;
     points.z[i] = position.z;
@@ -42,8 +51,8 @@ void load_points() {
 bool ranges_meet(uint a, uint b) { return (a & 0xffffu) <= b >> 16 && (b & 0xffffu) <= a >> 16; }
 
 bool overlaps(ScreenBounds light) {
-  return ranges_meet(light.x, tile_bounds.x) && ranges_meet(light.y, tile_bounds.y) && light.far >= tile_bounds.near &&
-         light.near <= tile_bounds.far;
+  return ranges_meet(light.x, tile_bounds.x) && ranges_meet(light.y, tile_bounds.y) &&
+         (!TILE_DEPTHS || light.far >= tile_bounds.near && light.near <= tile_bounds.far);
 }
 
 #endif

@@ -15,7 +15,6 @@ layout(constant_id = 16) const uint MODE = 0u;
 const uint mode_count = 0u;   // only counts the coarse lights
 const uint mode_lists = 1u;   // writes the list at the place that offsets.comp found for it
 const uint mode_packed = 2u;  // the chapter's limits, and 32 bytes a list
-layout(constant_id = 17) const bool FINE = true;
 
 layout(scalar, binding = 16) readonly buffer Visible {
   VisibleHeader visible;
@@ -81,7 +80,7 @@ uint probes_from(uint begin, uint count) { return EFFECT_PROBES ? lights_before(
 // Which of the coarse lights begin .. begin + count, at most 64, hold a pixel of the tile. The coarse list was written before a barrier that
 // all threads have passed.
 uvec2 prune(uint begin, uint count) {
-  if (!FINE) return uvec2(count < 32u ? (1u << count) - 1u : 0xffffffffu,
+  if (PRUNE == ML_PRUNE_COARSE) return uvec2(count < 32u ? (1u << count) - 1u : 0xffffffffu,
                           count < 32u ? 0u : count < 64u ? (1u << (count - 32u)) - 1u : 0xffffffffu);
   if (gl_LocalInvocationIndex < 2u) survivors[gl_LocalInvocationIndex] = 0u;
   barrier();

@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <memory>
@@ -29,6 +31,13 @@ void parse_shard(const std::string& text, RunOptions& options) {
   options.shards = count;
 }
 
+// Letters that a line of standard output may have; 0 where nobody says, as in a pipe or a file.
+size_t output_width() {
+  winsize size{};
+  if (isatty(STDOUT_FILENO) == 0 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return 0;
+  return size.ws_col;
+}
+
 ExitCode run(const Arguments& arguments) {
   RunOptions options = arguments.options;
   parse_shard(arguments.shard, options);
@@ -44,7 +53,7 @@ ExitCode run(const Arguments& arguments) {
       continue;
     }
     Result result = run_config(config, options);
-    fmt::print("{}\n", summary_table(result));
+    fmt::print("{}\n", summary_table(result, output_width()));
     fmt::print("harness overhead: {:.1f} % of {:.1f} s; peak memory {:.0f} MB\n",
                100 * result.harness["overhead_fraction"].get<double>(),
                result.harness["wall_ms"].get<double>() / 1000,

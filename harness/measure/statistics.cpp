@@ -104,6 +104,20 @@ double quantile(std::span<const double> samples, double p) {
   return std::clamp(low * (1 - part) + high * part, low, high);
 }
 
+Interval median_time(const Laps& samples, uint32_t seed) {
+  std::vector<double> scratch;
+  auto middle = [&](auto&& lap_of) {
+    scratch.clear();
+    for (size_t i = 0; i < samples.size(); ++i)
+      for (double sample : samples[lap_of(i)])
+        if (std::isfinite(sample)) scratch.push_back(sample);
+    return median_in_place(scratch);
+  };
+  return bootstrap(middle([](size_t i) { return i; }), samples.size(), seed, [&](Random& random) {
+    return middle([&](size_t) { return random.below(static_cast<uint32_t>(samples.size())); });
+  });
+}
+
 Interval mean_frame_time(const Laps& samples, uint32_t seed) {
   size_t frames = frame_count(samples);
   std::vector<double> scratch;

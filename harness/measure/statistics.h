@@ -20,6 +20,9 @@ struct Interval {
   double value = 0, low = 0, high = 0;
 };
 
+// Median over all repeats and frames; the 95 % interval as below. `samples` is [repeat][frame].
+Interval median_time(const std::vector<std::vector<double>>& samples, uint32_t seed = 1);
+
 // Per-frame time over repeats: for each frame the median over its repeats, then the mean over frames; the 95
 // % interval resamples the repeats (seeded, 1000 draws), widened for few repeats. `samples` is
 // [repeat][frame].

@@ -42,6 +42,15 @@ json times(const SampleTable& table, const CaseResult& one) {
   return result;
 }
 
+SampleTable samples(const json& one, const char* group) {
+  SampleTable table(one.at("repeats_done").get<uint32_t>(), static_cast<uint32_t>(one.at("frames").size()));
+  for (const auto& [name, laps] : one.at(group).items())
+    for (uint32_t repeat = 0; repeat < table.repeats(); ++repeat)
+      for (uint32_t frame = 0; frame < table.frames(); ++frame)
+        table.set(name, repeat, frame, laps.at(repeat).at(frame));
+  return table;
+}
+
 json case_json(const CaseResult& one) {
   json counters = json::object();
   for (const auto& [name, numbers] : one.counters) {
@@ -113,6 +122,31 @@ void check_case(const json& one, const std::string& place, bool complete,
 }
 
 }  // namespace
+
+CaseResult case_from_json(const json& one) {
+  CaseResult result;
+  one.at("id").get_to(result.id);
+  one.at("algorithm").get_to(result.algorithm);
+  one.at("scene").get_to(result.scene);
+  result.parameters = one.at("parameters");
+  one.at("lights").get_to(result.lights);
+  result.width = one.at("resolution").at(0);
+  result.height = one.at("resolution").at(1);
+  one.at("effects").get_to(result.effects);
+  one.at("frames").get_to(result.frames);
+  one.at("repeats_done").get_to(result.repeats_done);
+  result.cpu_ms = samples(one, "cpu_ms");
+  result.gpu_ms = samples(one, "gpu_ms");
+  one.at("counters").get_to(result.counters);
+  result.accuracy = one.at("accuracy");
+  one.at("memory_bytes").get_to(result.memory_bytes);
+  result.rejected_lights = one.at("rejected_lights");
+  one.at("timing_suspect").get_to(result.timing_suspect);
+  one.at("timing_note").get_to(result.timing_note);
+  one.at("files").at("heatmaps").get_to(result.heatmaps);
+  one.at("files").at("images").get_to(result.images);
+  return result;
+}
 
 json to_json(const Result& result) {
   json context = without_infinities(result.context);

@@ -48,6 +48,8 @@ struct Result {
 // ("there is no number"); among times and counters they are a programmer error (std::logic_error naming the
 // place).
 nlohmann::json to_json(const Result& result);
+// A case of a valid document.
+CaseResult case_from_json(const nlohmann::json& one);
 // Checks against the schema built into the program, then writes whole or not at all. Throws SystemError; a
 // result that its own schema refuses is a programmer error and throws std::logic_error.
 void write_result(const Result& result, const std::filesystem::path& file);
@@ -75,7 +77,8 @@ struct TraceEvent {
 void write_trace(const std::vector<TraceEvent>& events, const std::string& device_note,
                  const std::filesystem::path& file);
 
-// A table for people: one line a case, medians, with the device's type beside every time.
-std::string summary_table(const Result& result);
+// A table for people: one line a case, earlier ones too, medians, with the device's type beside every time.
+// `width`: letters that a line may have, beyond which the columns fold into several tables; 0: any number.
+std::string summary_table(const Result& result, size_t width = 0);
 
 }  // namespace ml

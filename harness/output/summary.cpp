@@ -1,46 +1,56 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 
 #include "harness/measure/statistics.h"
 #include "harness/output/result.h"
+#include "harness/output/text_table.h"
 
 namespace ml {
 namespace {
 
-// Every sample of the laps that are done.
-std::vector<double> samples(const SampleTable& table, const CaseResult& one, const char* name) {
-  return table.first(one.repeats_done).all(name);
+using Laps = std::vector<std::vector<double>>;  // ms, [repeat][frame]
+
+// The laps that are done; none where nothing has that name.
+Laps laps_of(const SampleTable& table, const CaseResult& one, std::string_view name) {
+  const auto found = table.tables().find(name);
+  if (found == table.tables().end()) return {};
+  Laps laps = found->second;
+  laps.resize(std::min<size_t>(laps.size(), one.repeats_done));
+  return laps;
 }
 
 bool is_shading(const std::string& pass) {
   return pass == "shade" || pass == "composite" || pass == "forward";
 }
 
-// The device's passes of one kind together, in the same order of samples.
+// The device's passes of one kind together.
 template <typename Predicate>
-std::vector<double> summed_samples(const CaseResult& one, Predicate wanted) {
-  std::vector<double> sums;
+Laps summed(const CaseResult& one, Predicate wanted) {
+  Laps sums;
   for (const auto& [name, table] : one.gpu_ms.tables()) {
     if (!wanted(name)) continue;
-    const std::vector<double> values = samples(one.gpu_ms, one, name.c_str());
-    sums.resize(std::max(sums.size(), values.size()));
-    for (size_t i = 0; i < values.size(); ++i) sums[i] += values[i];
+    const Laps laps = laps_of(one.gpu_ms, one, name);
+    sums.resize(std::max(sums.size(), laps.size()));
+    for (size_t i = 0; i < laps.size(); ++i) {
+      sums[i].resize(std::max(sums[i].size(), laps[i].size()));
+      for (size_t frame = 0; frame < laps[i].size(); ++frame) sums[i][frame] += laps[i][frame];
+    }
   }
   return sums;
 }
 
-std::vector<double> shading_samples(const CaseResult& one) {
-  return summed_samples(one, is_shading);
+Laps shading(const CaseResult& one) {
+  return summed(one, is_shading);
 }
 
 // List building: every pass before shading.
-std::vector<double> cull_samples(const CaseResult& one) {
-  return summed_samples(one, [](const std::string& name) {
+Laps culling(const CaseResult& one) {
+  return summed(one, [](const std::string& name) {
     return !is_shading(name) && name != "total" && name != "transfer";
   });
 }
@@ -49,14 +59,17 @@ std::string milliseconds(double value) {
   return fmt::format("{:.{}f}", value, value < 10 ? 3 : value < 100 ? 2 : 1);
 }
 
-std::string median_ms(const std::vector<double>& values) {
-  return values.empty() ? "-" : milliseconds(median(values));
+std::string median_ms(const Laps& laps) {
+  const double value = median_time(laps).value;
+  return std::isfinite(value) ? milliseconds(value) : "-";
 }
 
-std::string median_and_quartiles(const std::vector<double>& values) {
-  if (values.empty()) return "-";
-  return fmt::format("{} [{} {}]", milliseconds(median(values)), milliseconds(quantile(values, 0.25)),
-                     milliseconds(quantile(values, 0.75)));
+// One lap says nothing of its spread.
+std::string median_and_interval(const Laps& laps) {
+  const Interval time = median_time(laps);
+  if (!std::isfinite(time.value)) return "-";
+  if (laps.size() < 2) return milliseconds(time.value);
+  return fmt::format("{} [{} {}]", milliseconds(time.value), milliseconds(time.low), milliseconds(time.high));
 }
 
 std::optional<double> counter_sum(const CaseResult& one, const char* name) {
@@ -70,6 +83,11 @@ std::optional<double> counter_sum(const CaseResult& one, const char* name) {
 std::string counter_mean(const CaseResult& one, const char* name) {
   auto sum = counter_sum(one, name);
   return sum ? fmt::format("{:.2f}", *sum / static_cast<double>(one.counters.at(name).size())) : "-";
+}
+
+// Nodes of trees, where there are any.
+std::string nodes(const CaseResult& one) {
+  return counter_sum(one, "nodes").value_or(0) > 0 ? counter_mean(one, "nodes") : "-";
 }
 
 std::string bytes(const CaseResult& one) {
@@ -111,17 +129,16 @@ bool same_setup(const CaseResult& a, const CaseResult& b) {
 
 // Shading time of the perfect lists over this algorithm's: 1 is as good as any list can be. Unknown without
 // exactly one `ideal` case of the setup (a sweep over something that a case does not show makes several).
-std::string efficiency(const Result& result, const CaseResult& one) {
+std::string efficiency(const std::vector<CaseResult>& cases, const CaseResult& one) {
   const CaseResult* ideal = nullptr;
-  for (const CaseResult& other : result.cases) {
+  for (const CaseResult& other : cases) {
     if (other.algorithm != "ideal" || !same_setup(one, other)) continue;
     if (ideal) return "-";
     ideal = &other;
   }
   if (!ideal) return "-";
-  auto best = shading_samples(*ideal), own = shading_samples(one);
-  if (best.empty() || own.empty() || !(median(own) > 0)) return "-";
-  return fmt::format("{:.2f}", median(best) / median(own));
+  const double ratio = median_time(shading(*ideal)).value / median_time(shading(one)).value;
+  return std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : "-";
 }
 
 std::string device_text(const nlohmann::json& context, const char* key) {
@@ -132,26 +149,6 @@ std::string device_text(const nlohmann::json& context, const char* key) {
   return (*device)[key];
 }
 
-using Row = std::vector<std::string>;
-
-std::string aligned(const std::vector<Row>& rows, size_t left_columns) {
-  std::vector<size_t> width(rows.front().size());
-  for (const Row& row : rows)
-    for (size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line;
-    for (size_t c = 0; c < row.size(); ++c) {
-      if (c > 0) line += "  ";
-      line += c < left_columns || c + 1 == row.size() ? fmt::format("{:<{}}", row[c], width[c])
-                                                      : fmt::format("{:>{}}", row[c], width[c]);
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
-}
-
 std::string footnote(const Result& result, bool any_suspect) {
   std::string type = device_text(result.context, "type"), name = device_text(result.context, "name");
   std::string driver = device_text(result.context, "driver");
@@ -160,9 +157,11 @@ std::string footnote(const Result& result, bool any_suspect) {
   if (type == "cpu")
     text += "It is a software driver: its times are CPU time of this machine's cores, not a GPU's.\n";
   text +=
-      "Times are medians over frames and repeats, [quartiles]; counters are means over frames, per lit "
-      "pixel. eff.: shade time of "
-      "ideal / of this.\n";
+      "Times are medians over frames and repeats, [95 % interval].\n"
+      "Counters are means over frames, per lit pixel; lost: lights that pixels should have got and did not, "
+      "in "
+      "all.\n"
+      "eff.: shade time of ideal / of this.\n";
   if (any_suspect)
     text += "! timing suspect: spans, stamps and fence disagree; see timing_note in the result.\n";
   if (!result.complete) text += "The run is not complete.\n";
@@ -171,30 +170,37 @@ std::string footnote(const Result& result, bool any_suspect) {
 
 }  // namespace
 
-std::string summary_table(const Result& result) {
+std::string summary_table(const Result& result, size_t width) {
   std::string type = device_text(result.context, "type");
   std::string unit = type == "cpu"  ? "ms (cpu device)"
                      : type.empty() ? "ms (device)"
                                     : fmt::format("ms ({} gpu)", type);
   if (type == "other" || type == "virtual") unit = fmt::format("ms ({} device)", type);
-  std::vector<Row> rows{
-      {"algorithm", "scene", "lights", "picture", "prepare", "cull", "shade", "total", "tested", "contrib.",
-       "listed", "lists", "lost", "eff.", ""},
-      {"", "", "", "px", "ms (cpu)", unit, unit, unit, "/px", "/px", "/px", "/frame", "", "", ""}};
-  auto differing = differing_parameters(result.cases);
+  std::vector<CaseResult> cases;
+  for (const nlohmann::json& earlier : result.earlier_cases) cases.push_back(case_from_json(earlier));
+  cases.insert(cases.end(), result.cases.begin(), result.cases.end());
+  TextTable table;
+  table.labels = 4;
+  table.grouped = 3;
+  table.headings = {
+      {"algorithm", "scene", "lights", "picture", "prepare", "cull", "shade", "eff.", "total", "tested",
+       "contrib.", "listed", "nodes", "lists", "lost"},
+      {"", "", "", "px", "ms (cpu)", unit, unit, "", unit, "/px", "/px", "/px", "/px", "/frame", ""}};
+  auto differing = differing_parameters(cases);
   bool any_suspect = false;
-  for (const CaseResult& one : result.cases) {
+  for (const CaseResult& one : cases) {
     any_suspect |= one.timing_suspect;
     auto lost = counter_sum(one, "lost");
-    rows.push_back({label(one, differing[one.algorithm]), one.scene, std::to_string(one.lights),
-                    fmt::format("{}x{}", one.width, one.height),
-                    median_and_quartiles(samples(one.cpu_ms, one, "total")), median_ms(cull_samples(one)),
-                    median_ms(shading_samples(one)), median_ms(samples(one.gpu_ms, one, "total")),
-                    counter_mean(one, "tested"), counter_mean(one, "contributing"),
-                    counter_mean(one, "listed"), bytes(one), lost ? fmt::format("{:.0f}", *lost) : "-",
-                    efficiency(result, one), one.timing_suspect ? "!" : ""});
+    table.rows.push_back({label(one, differing[one.algorithm]) + (one.timing_suspect ? " !" : ""), one.scene,
+                          std::to_string(one.lights), fmt::format("{}x{}", one.width, one.height),
+                          median_and_interval(laps_of(one.cpu_ms, one, "total")), median_ms(culling(one)),
+                          median_and_interval(shading(one)), efficiency(cases, one),
+                          median_ms(laps_of(one.gpu_ms, one, "total")), counter_mean(one, "tested"),
+                          counter_mean(one, "contributing"), counter_mean(one, "listed"), nodes(one),
+                          bytes(one), lost ? fmt::format("{:.0f}", *lost) : "-"});
   }
-  return aligned(rows, 2) + "\n" + footnote(result, any_suspect);
+  return (width == 0 ? whole_table(table) : folded_table(table, width)) + "\n" +
+         footnote(result, any_suspect);
 }
 
 }  // namespace ml

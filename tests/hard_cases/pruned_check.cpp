@@ -44,6 +44,8 @@ ShadedAlgorithm& PrunedCheck::algorithm(const PrunedSettings& settings) {
     parameters.set(entry().parameters, "caps", settings.caps, "test");
     parameters.set(entry().parameters, "prune", settings.prune, "test");
     parameters.set(entry().parameters, "walk", settings.walk, "test");
+    parameters.set(entry().parameters, "bounds", settings.bounds, "test");
+    parameters.set(entry().parameters, "tile_depths", settings.tile_depths, "test");
     made = std::make_unique<ShadedAlgorithm>(device(), entry(), parameters, frame_.effects());
   }
   return *made;
@@ -62,7 +64,7 @@ PrunedRun PrunedCheck::run(const PrunedSettings& settings) {
 }
 
 std::vector<PrunedSettings> PrunedCheck::lossless() {
-  return {{"exact", "fine", "subgroup"}, {"exact", "coarse", "pixel"}};
+  return {{"exact", "fine", "subgroup"}, {"exact", "coarse", "pixel"}, {"exact", "facing", "subgroup"}};
 }
 
 void PrunedCheck::expect_lossless(const std::vector<PrunedSettings>& settings) {

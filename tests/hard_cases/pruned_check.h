@@ -10,8 +10,11 @@
 namespace ml::test {
 
 struct PrunedSettings {
-  std::string caps = "exact", prune = "fine", walk = "subgroup";
-  std::string text() const { return caps + " " + prune + " " + walk; }
+  std::string caps = "exact", prune = "fine", walk = "subgroup", bounds = "hull";
+  bool tile_depths = true;
+  std::string text() const {
+    return caps + " " + prune + " " + walk + " " + bounds + (tile_depths ? " by depth" : "");
+  }
 };
 
 struct PrunedRun {

@@ -79,6 +79,27 @@ TEST(Quantile, IsLinearBetweenNeighbours) {
   EXPECT_DOUBLE_EQ(quantile(samples, 0.9), 36);
 }
 
+TEST(MedianTime, IsTheMedianOfAllSamplesWithinItsInterval) {
+  Random random(11);
+  for (size_t repeats = 1; repeats < 12; ++repeats) {
+    Laps laps;
+    std::vector<double> all;
+    for (size_t i = 0; i < repeats; ++i) {
+      laps.push_back(random_samples(random, 1 + repeats % 5));
+      all.insert(all.end(), laps.back().begin(), laps.back().end());
+    }
+    laps[0].push_back(nan);
+    const Interval time = median_time(laps);
+    EXPECT_DOUBLE_EQ(time.value, median(all));
+    EXPECT_LE(time.low, time.value);
+    EXPECT_GE(time.high, time.value);
+    EXPECT_EQ(repeats == 1, time.low == time.high) << repeats;
+    EXPECT_EQ(median_time(laps).low, time.low) << "the same seed";
+  }
+  EXPECT_TRUE(std::isnan(median_time({}).value));
+  EXPECT_TRUE(std::isnan(median_time({{nan}, {}}).high));
+}
+
 TEST(MeanFrameTime, IsTheMeanOfTheFramesMedians) {
   // One outlier in a lap moves no median of three.
   Laps laps{{1, 10}, {2, 20}, {3, 9000}};
