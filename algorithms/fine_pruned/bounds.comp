@@ -15,6 +15,7 @@ layout(scalar, binding = 16) readonly buffer Visible {
 layout(scalar, binding = 17) writeonly buffer Bounds { ScreenBounds bounds[]; };
 
 const float none = 3e38;
+const bool any_hulls = EFFECT_SPOTS || EFFECT_CAPSULES || EFFECT_WEDGES || EFFECT_BOXES;
 const float widen_pixels = 1.0 / 256.0;  // as the froxel bounds
 const uint most_corners = 16u;  // of a clipped face: 4 and one for each plane, and room for what rounding bends
 
@@ -128,7 +129,8 @@ void main() {
   const LightCore light = lights[visible_lights[place]];
   const WindowBounds ball = ball_bounds(light);
   vec3 low = ball.low, high = ball.high;
-  if (BOUNDS != ML_BOUNDS_BALL) {
+  // The box around an omni light has the bounds of its ball inside its own: all of the hull would be cut off.
+  if (BOUNDS != ML_BOUNDS_BALL && any_hulls && (light.id_shape >> 24) != ML_SHAPE_OMNI) {
     const WindowBounds hull = hull_bounds(light_hull(light, BOUNDS == ML_BOUNDS_HULL));
     low = max(hull.low, low);
     high = min(hull.high, high);

@@ -33,6 +33,7 @@ class FinePruned final : public Algorithm {
     settings_.prune = prune_of(p.choice("prune"));
     settings_.bounds = bounds_of(p.choice("bounds"));
     settings_.tile_depths = p.boolean("tile_depths");
+    settings_.region_lights = static_cast<uint32_t>(p.integer("region_lights"));
   }
 
   void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override {
@@ -105,7 +106,7 @@ AlgorithmEntry fine_pruned_entry() {
   entry.info.summary = "tile lists built on the GPU, pruned by true volumes against every pixel";
   entry.info.paper = "Mikkelsen, Fine Pruned Tiled Light Lists, GPU Pro 7, 2016";
   entry.info.cpu_stages = {"cull", "sort", "upload"};
-  entry.info.gpu_stages = {"bounds", "coarse", "lists", "shade"};
+  entry.info.gpu_stages = {"bounds", "regions", "coarse", "lists", "shade"};
   entry.parameters = {
       ParameterInfo::choice("prune", "fine", {"fine", "coarse", "facing"},
                             "lists by true volumes against pixels (section 2.4), by screen bounds alone, or "
@@ -119,6 +120,10 @@ AlgorithmEntry fine_pruned_entry() {
       ParameterInfo::choice("caps", "exact", {"exact", "paper"},
                             "lists of any length, or 64 coarse and 24 pruned lights a tile, 1024 in view, "
                             "loss reported (section 2.5)"),
+      ParameterInfo::integer(
+          "region_lights", 1024, 0, 1048576,
+          "with more lights in view than this, squares of 8x8 tiles list theirs first, and "
+          "their tiles look at no others"),
       walk_parameter(),
   };
   entry.create = [](const Parameters& parameters) { return std::make_unique<FinePruned>(parameters); };

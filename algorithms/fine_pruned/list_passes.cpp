@@ -5,6 +5,7 @@
 
 #include "spirv/fine_pruned_bounds.h"
 #include "spirv/fine_pruned_offsets.h"
+#include "spirv/fine_pruned_regions.h"
 #include "spirv/fine_pruned_tiles.h"
 
 namespace ml {
@@ -12,6 +13,9 @@ namespace {
 
 // Values of MODE in tiles.comp.
 enum Mode : uint32_t { mode_count, mode_lists, mode_packed };
+
+// Of all regions' lists: each has room for all lights in view.
+constexpr uint64_t most_region_bytes = uint64_t{32} << 20;
 
 std::vector<gpu::Constant> with(std::vector<gpu::Constant> shared, std::initializer_list<gpu::Constant> own) {
   shared.insert(shared.end(), own);
@@ -28,19 +32,42 @@ ListPasses::ListPasses(gpu::Device& device, const std::vector<gpu::Constant>& sh
                        const PruneSettings& settings)
     : device_(device),
       settings_(settings),
-      bounds_(device, fine_pruned_bounds, "fine_pruned: bounds", with(shared, {{16, settings.bounds}})),
-      lists_(device, fine_pruned_tiles, "fine_pruned: lists",
-             with(shared, {{16, settings.packed ? mode_packed : mode_lists},
-                           {17, settings.prune},
-                           {18, settings.tile_depths}})) {
-  if (!settings.packed) {
-    count_ = std::make_unique<gpu::ComputeProgram>(
-        device, fine_pruned_tiles, "fine_pruned: coarse",
-        with(shared, {{16, mode_count}, {17, ML_PRUNE_COARSE}, {18, settings.tile_depths}}));
+      shared_(shared),
+      bounds_(device, fine_pruned_bounds, "fine_pruned: bounds", with(shared, {{16, settings.bounds}})) {
+  if (!settings.packed)
     offsets_ = std::make_unique<gpu::ComputeProgram>(device, fine_pruned_offsets, "fine_pruned: offsets");
-  }
-  for (Grown* grown : {&light_bounds_, &tile_lists_, &list_lights_, &packed_lists_, &tile_counts_})
+  for (Grown* grown :
+       {&light_bounds_, &tile_lists_, &list_lights_, &packed_lists_, &tile_counts_, &region_lists_})
     reserve(*grown, 16);
+}
+
+ListPasses::TilePrograms& ListPasses::programs(bool regions) {
+  TilePrograms& made = regions ? in_regions_ : flat_;
+  const auto make = [&](uint32_t mode, uint32_t prune, const char* name) {
+    return std::make_unique<gpu::ComputeProgram>(
+        device_, fine_pruned_tiles, name,
+        with(shared_, {{16, mode}, {17, prune}, {18, settings_.tile_depths}, {19, regions}}));
+  };
+  if (!made.lists) {
+    made.lists = make(settings_.packed ? mode_packed : mode_lists, settings_.prune, "fine_pruned: lists");
+    if (!settings_.packed) made.count = make(mode_count, ML_PRUNE_COARSE, "fine_pruned: coarse");
+  }
+  if (regions && !regions_)
+    regions_ = std::make_unique<gpu::ComputeProgram>(device_, fine_pruned_regions, "fine_pruned: regions",
+                                                     with(shared_, {{18, settings_.tile_depths}}));
+  return made;
+}
+
+void ListPasses::lay_out_regions(uint32_t columns, uint32_t rows, uint32_t visible) {
+  const uint64_t most = std::min<uint64_t>(device_.limits().storage_buffer_range, most_region_bytes);
+  region_shift_ = 3;
+  const auto along = [this](uint32_t tiles) { return ((tiles - 1) >> region_shift_) + 1; };
+  while (uint64_t{along(columns)} * along(rows) * (visible + 1) * 4 > most &&
+         along(columns) * along(rows) > 1)
+    ++region_shift_;
+  region_columns_ = along(columns);
+  region_rows_ = along(rows);
+  reserve(region_lists_, uint64_t{region_columns_} * region_rows_ * (visible + 1) * 4);
 }
 
 void ListPasses::reserve(Grown& grown, uint64_t bytes) {
@@ -68,26 +95,38 @@ void ListPasses::record(gpu::Commands& commands, const gpu_data::ViewData& view,
     const uint64_t limit = std::min<uint64_t>(device_.limits().storage_buffer_range / 4, ML_PRUNED_ALL - 1);
     reserve(list_lights_, std::min(entries + entries / 4 + 1024, limit) * 4);
   }
+  const bool regions = visible > settings_.region_lights;
+  if (regions) lay_out_regions(columns, rows, visible);
+  TilePrograms& tile_programs = programs(regions);
   gpu::Bindings list = frame;
   bindings(list);
   const gpu_data::PrunedPush push{
-      columns, tiles_,
-      static_cast<uint32_t>(std::min<uint64_t>(list_lights_.buffer->bytes() / 4, ML_PRUNED_ALL - 1))};
+      columns,
+      tiles_,
+      static_cast<uint32_t>(std::min<uint64_t>(list_lights_.buffer->bytes() / 4, ML_PRUNED_ALL - 1)),
+      region_shift_,
+      region_columns_,
+      visible + 1};
   {
     auto span = commands.span("bounds");
     commands.dispatch(bounds_, list, push, (visible + 63) / 64);
   }
+  if (regions) {
+    auto span = commands.span("regions");
+    commands.dispatch(*regions_, list, push, region_columns_, region_rows_);
+  }
   if (!settings_.packed) {
     auto span = commands.span("coarse");
-    commands.dispatch(*count_, list, push, columns, rows);
+    commands.dispatch(*tile_programs.count, list, push, columns, rows);
     commands.dispatch(*offsets_, list, push, 1);
   }
   auto span = commands.span("lists");
-  commands.dispatch(lists_, list, push, columns, rows);
+  commands.dispatch(*tile_programs.lists, list, push, columns, rows);
 }
 
 void ListPasses::bindings(gpu::Bindings& list) const {
-  for (const Grown* grown : {&light_bounds_, &tile_lists_, &list_lights_, &packed_lists_, &tile_counts_})
+  for (const Grown* grown :
+       {&light_bounds_, &tile_lists_, &list_lights_, &packed_lists_, &tile_counts_, &region_lists_})
     list.emplace_back(grown->name, *grown->buffer);
 }
 

@@ -14,8 +14,9 @@ struct PruneSettings {
   bool packed = false;  // the chapter's lists and limits
   uint32_t prune = ML_PRUNE_FINE;
   uint32_t bounds = ML_BOUNDS_HULL;
-  bool tile_depths = true;  // false: coarse lists by the tiles' rectangles alone
-  bool probes = false;      // a list of probe lights beside that of direct ones
+  bool tile_depths = true;     // false: coarse lists by the tiles' rectangles alone
+  bool probes = false;         // a list of probe lights beside that of direct ones
+  uint32_t region_lights = 0;  // with more lights in view than this, regions of tiles list lights first
   uint32_t packed_words() const { return (probes ? 2 : 1) * ML_PACKED_WORDS; }  // of a tile
 };
 
@@ -41,16 +42,26 @@ class ListPasses {
     const char* name;
     std::unique_ptr<gpu::Buffer> buffer;
   };
+  // The passes over tiles, by themselves or after the pass over regions. Made when first needed.
+  struct TilePrograms {
+    std::unique_ptr<gpu::ComputeProgram> count, lists;  // count: none when packed
+  };
   void reserve(Grown& grown, uint64_t bytes);
+  TilePrograms& programs(bool regions);
+  // Regions as small as the memory for their lists allows.
+  void lay_out_regions(uint32_t columns, uint32_t rows, uint32_t visible);
 
   gpu::Device& device_;
   PruneSettings settings_;
-  gpu::ComputeProgram bounds_, lists_;
-  std::unique_ptr<gpu::ComputeProgram> count_, offsets_;  // none when packed
+  std::vector<gpu::Constant> shared_;
+  gpu::ComputeProgram bounds_;
+  std::unique_ptr<gpu::ComputeProgram> offsets_, regions_;  // none when packed; when not needed yet
+  TilePrograms flat_, in_regions_;
   Grown light_bounds_{"Bounds", {}}, tile_lists_{"TileLists", {}}, list_lights_{"ListLights", {}},
-      packed_lists_{"PackedLists", {}}, tile_counts_{"TileCounts", {}};
+      packed_lists_{"PackedLists", {}}, tile_counts_{"TileCounts", {}}, region_lists_{"RegionLists", {}};
   std::unique_ptr<gpu::Buffer> readback_;
   uint32_t tiles_ = 0;
+  uint32_t region_shift_ = 0, region_columns_ = 0, region_rows_ = 0;
 };
 
 }  // namespace ml

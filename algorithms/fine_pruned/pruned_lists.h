@@ -47,8 +47,11 @@ struct PrunedPush {
   uint columns;   // tiles across
   uint tiles;     // all of them
   uint capacity;  // lights that the list buffer holds
+  // Regions of 2^region_shift tiles squared: how many stand side by side, and words from one's list to the
+  // next: the number of its lights, and room for all.
+  uint region_shift, region_columns, region_words;
 };
-ML_SIZE(PrunedPush, 12);
+ML_SIZE(PrunedPush, 24);
 
 // First light of a list that stands in the visible lights themselves: the list buffer had no room for the
 // tile, which then walks all of them.

@@ -4,8 +4,6 @@
 #include "light_volume.glsl"
 #include "pruned_lists.h"
 
-layout(constant_id = 18) const bool TILE_DEPTHS = true;  // false: tiles have no bounds in depth
-
 shared uint depth_low, depth_high;  // bits of the tile's depths, which are positive and so in order
 
 FourPoints points;
@@ -45,14 +43,6 @@ void load_points() {
   barrier();
   const uvec2 edge = min(corner + ML_PRUNED_TILE - 1u, last);
   tile_bounds = ScreenBounds(corner.x | edge.x << 16, corner.y | edge.y << 16, uintBitsToFloat(depth_low), uintBitsToFloat(depth_high));
-}
-
-// Closed ranges, as first | last << 16.
-bool ranges_meet(uint a, uint b) { return (a & 0xffffu) <= b >> 16 && (b & 0xffffu) <= a >> 16; }
-
-bool overlaps(ScreenBounds light) {
-  return ranges_meet(light.x, tile_bounds.x) && ranges_meet(light.y, tile_bounds.y) &&
-         (!TILE_DEPTHS || light.far >= tile_bounds.near && light.near <= tile_bounds.far);
 }
 
 #endif

@@ -2,7 +2,7 @@
 // the tile's. Fine: the coarse lights' true volumes against the tile's pixels, 64 lights at a time.
 //
 // Order comes from bits: a batch of lights is tested into a bit field, and a light's place in the list is the number of bits before its own.
-// So it depends neither on the order of threads nor on the width of a subgroup.
+// So it depends neither on the order of threads nor on the width of a subgroup (light_batches.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -10,31 +10,30 @@
 #include "pruned_lists.h"
 #include "tile_points.glsl"
 
+layout(constant_id = 19) const bool REGIONS = false;  // the tile's region has listed the lights that it may have (regions.comp)
+uint region_list;                                     // where its list begins
+uint candidate(uint place);
+#include "light_batches.glsl"
+
 layout(local_size_x = ML_PRUNED_GROUP) in;
 layout(constant_id = 16) const uint MODE = 0u;
 const uint mode_count = 0u;   // only counts the coarse lights
 const uint mode_lists = 1u;   // writes the list at the place that offsets.comp found for it
 const uint mode_packed = 2u;  // the chapter's limits, and 32 bytes a list
 
-layout(scalar, binding = 16) readonly buffer Visible {
-  VisibleHeader visible;
-  uint visible_lights[];
-};
-layout(scalar, binding = 17) readonly buffer Bounds { ScreenBounds bounds[]; };
 layout(scalar, binding = 18) buffer TileLists { uvec2 tile_lists[]; };  // first light and count
 layout(scalar, binding = 19) writeonly buffer ListLights { uint list_lights[]; };
 layout(scalar, binding = 20) writeonly buffer PackedLists { uint packed_lists[]; };
 layout(scalar, binding = 21) writeonly buffer TileCounts { uvec2 tile_counts[]; };  // lights before and after fine pruning (packed: listed_pair)
+layout(scalar, binding = 22) readonly buffer RegionLists { uint region_lists[]; };
 layout(scalar, push_constant) uniform Push { PrunedPush push; };
 
-const uint rounds = 8u;  // lights that a thread tests in one batch
-const uint batch = rounds * ML_PRUNED_GROUP, batch_words = batch / 32u;
-
-shared uint passed[3u * batch_words];         // which lights of a batch passed; three take turns, so that a barrier a batch is enough
 shared uint coarse[ML_PRUNED_CHUNK + batch];  // visible indices of coarse lights, in order
 shared uint survivors[2];                     // which of a chunk's lights hold a pixel
 const uint lists = EFFECT_PROBES ? 2u : 1u;   // of a tile: direct lights, and probe lights
 shared uint kept[2u * ML_PACKED_LIGHTS];
+
+uint candidate(uint place) { return REGIONS ? region_lists[region_list + 1u + place] : place; }
 
 // How many of the chunk's lights, of which there are at most 64, come before a visible index.
 uint lights_before(uint begin, uint count, uint value) {
@@ -107,13 +106,6 @@ uvec2 prune(uint begin, uint count) {
   return mask;
 }
 
-uint bits_before(uvec2 mask, uint place) {
-  return place < 32u ? uint(bitCount(mask.x & ((1u << place) - 1u)))
-                     : uint(bitCount(mask.x) + bitCount(mask.y & ((1u << (place - 32u)) - 1u)));
-}
-
-bool has_bit(uvec2 mask, uint place) { return ((place < 32u ? mask.x >> place : mask.y >> (place - 32u)) & 1u) != 0u; }
-
 // Prunes a chunk and appends what is left to the tile's list.
 void append_chunk(uint begin, uint count, uint first, inout uint listed) {
   const uint thread = gl_LocalInvocationIndex;
@@ -133,24 +125,15 @@ void append_chunk(uint begin, uint count, uint first, inout uint listed) {
   listed += all;
 }
 
-// Coarse lights of the batch from `first_light` on, as bits of passed[field ...].
-void test_batch(uint first_light, uint field) {
-  const uint thread = gl_LocalInvocationIndex;
-  for (uint round = 0u; round < rounds; ++round) {
-    const uint place = first_light + round * ML_PRUNED_GROUP + thread;
-    if (place < visible.count && overlaps(bounds[place])) atomicOr(passed[field + round * 2u + (thread >> 5)], 1u << (thread & 31u));
-  }
-}
-
 // Appends the lights that passed to coarse[], as far as it holds them; how many they were.
 uint keep_batch(uint first_light, uint field, uint held) {
   const uint thread = gl_LocalInvocationIndex;
   uint before = held;
   for (uint round = 0u; round < rounds; ++round) {
-    const uvec2 mask = uvec2(passed[field + round * 2u], passed[field + round * 2u + 1u]);
+    const uvec2 mask = passed_in(field, round);
     if (MODE != mode_count && has_bit(mask, thread)) {
       const uint place = before + bits_before(mask, thread);
-      if (MODE == mode_lists || place < ML_PRUNED_CHUNK) coarse[place] = first_light + round * ML_PRUNED_GROUP + thread;
+      if (MODE == mode_lists || place < ML_PRUNED_CHUNK) coarse[place] = candidate(first_light + round * ML_PRUNED_GROUP + thread);
     }
     before += bitCount(mask.x) + bitCount(mask.y);
   }
@@ -160,24 +143,23 @@ uint keep_batch(uint first_light, uint field, uint held) {
 void main() {
   const uint thread = gl_LocalInvocationIndex;
   const uint tile = gl_WorkGroupID.y * push.columns + gl_WorkGroupID.x;
-  if (thread < batch_words)
-    for (uint turn = 0u; turn < 3u; ++turn) passed[turn * batch_words + thread] = 0u;
+  clear_batches();
   load_points();
 
   const uint first = MODE == mode_lists ? tile_lists[tile].x : 0u;
   const bool no_room = MODE == mode_lists && first == ML_PRUNED_ALL;
   // A tile of sky has an empty list.
-  const uint count = no_room || !(tile_bounds.near <= tile_bounds.far) ? 0u : visible.count;
+  if (REGIONS)
+    region_list = push.region_words * ((gl_WorkGroupID.y >> push.region_shift) * push.region_columns + (gl_WorkGroupID.x >> push.region_shift));
+  const uint candidates = REGIONS ? region_lists[region_list] : visible.count;
+  const uint count = no_room || !(tile_bounds.near <= tile_bounds.far) ? 0u : candidates;
   uint demand = 0u, held = 0u, listed = 0u, turn = 0u;
   for (uint begin = 0u; begin < count; begin += batch) {
     const uint field = turn * batch_words;
-    test_batch(begin, field);
+    test_batch(begin, count, field, tile_bounds);
     barrier();
     const uint more = keep_batch(begin, field, held);
-    // Last read before this batch's barrier, and next written after the next one's.
-    const uint cleared = turn == 0u ? 2u : turn - 1u;
-    if (thread < batch_words) passed[cleared * batch_words + thread] = 0u;
-    turn = turn == 2u ? 0u : turn + 1u;
+    turn = next_turn(turn);
     demand += more;
     held += more;
     if (MODE == mode_lists && held >= ML_PRUNED_CHUNK) {

@@ -1,0 +1,60 @@
+// Lights tested against bounds 512 at a time by a workgroup of 64 threads, and their places among those that passed. Who includes this says
+// what the candidates are: `uint candidate(uint place)`, a visible index.
+#ifndef ML_FINE_PRUNED_LIGHT_BATCHES_GLSL
+#define ML_FINE_PRUNED_LIGHT_BATCHES_GLSL
+#include "pruned_lists.h"
+
+layout(constant_id = 18) const bool TILE_DEPTHS = true;  // false: tiles have no bounds in depth
+
+layout(scalar, binding = 16) readonly buffer Visible {
+  VisibleHeader visible;
+  uint visible_lights[];
+};
+layout(scalar, binding = 17) readonly buffer Bounds { ScreenBounds bounds[]; };
+
+const uint rounds = 8u;  // lights that a thread tests in one batch
+const uint batch = rounds * ML_PRUNED_GROUP, batch_words = batch / 32u;
+
+shared uint passed[3u * batch_words];  // which lights of a batch passed; three take turns, so that a barrier a batch is enough
+
+// Before the first batch, and a barrier before it.
+void clear_batches() {
+  const uint thread = gl_LocalInvocationIndex;
+  if (thread < batch_words)
+    for (uint turn = 0u; turn < 3u; ++turn) passed[turn * batch_words + thread] = 0u;
+}
+
+// After a batch's barrier: clears the field that was last read before it and is next written after the next one's. Returns the next turn.
+uint next_turn(uint turn) {
+  const uint cleared = turn == 0u ? 2u : turn - 1u;
+  if (gl_LocalInvocationIndex < batch_words) passed[cleared * batch_words + gl_LocalInvocationIndex] = 0u;
+  return turn == 2u ? 0u : turn + 1u;
+}
+
+// Closed ranges, as first | last << 16.
+bool ranges_meet(uint a, uint b) { return (a & 0xffffu) <= b >> 16 && (b & 0xffffu) <= a >> 16; }
+
+bool overlaps(ScreenBounds light, ScreenBounds place) {
+  return ranges_meet(light.x, place.x) && ranges_meet(light.y, place.y) &&
+         (!TILE_DEPTHS || light.far >= place.near && light.near <= place.far);
+}
+
+// Those of the batch of candidates from `first` on, and before `count`, that overlap: as bits of passed[field ...].
+void test_batch(uint first, uint count, uint field, ScreenBounds place) {
+  const uint thread = gl_LocalInvocationIndex;
+  for (uint round = 0u; round < rounds; ++round) {
+    const uint at = first + round * ML_PRUNED_GROUP + thread;
+    if (at < count && overlaps(bounds[candidate(at)], place)) atomicOr(passed[field + round * 2u + (thread >> 5)], 1u << (thread & 31u));
+  }
+}
+
+uvec2 passed_in(uint field, uint round) { return uvec2(passed[field + round * 2u], passed[field + round * 2u + 1u]); }
+
+uint bits_before(uvec2 mask, uint place) {
+  return place < 32u ? uint(bitCount(mask.x & ((1u << place) - 1u)))
+                     : uint(bitCount(mask.x) + bitCount(mask.y & ((1u << (place - 32u)) - 1u)));
+}
+
+bool has_bit(uvec2 mask, uint place) { return ((place < 32u ? mask.x >> place : mask.y >> (place - 32u)) & 1u) != 0u; }
+
+#endif
