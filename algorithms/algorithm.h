@@ -172,6 +172,10 @@ struct AlgorithmEntry {
   // Further checks across parameters and against resolution; returns "" or what is wrong.
   std::function<std::string(const Parameters&, uint32_t width, uint32_t height)> check;
   std::function<std::unique_ptr<Algorithm>(const Parameters&)> create;
+  // Seconds that a frame takes on two cores of a software device beyond preparation and the walk of a list of
+  // a handful of lights for each pixel; none: nothing. For the estimate of a run, so a factor of two is near
+  // enough. `lights` are all of the scene's.
+  std::function<double(const Parameters&, uint32_t width, uint32_t height, uint32_t lights)> further_seconds;
 };
 
 // All algorithms, in the order in which tables show them. The only place that names them is registry.cpp.

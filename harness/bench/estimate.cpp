@@ -3,43 +3,56 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
 
 #include "harness/bench/setup_run.h"
 
 namespace ml {
 namespace {
 
-// Seconds per unit on two cores of the software device, from the spans of a run of `quick` (harness.spans_ms
-// over pixels, lights and laps).
-constexpr double per_shaded_pixel = 0.064e-6;    // list walk and shading of a handful of lights
-constexpr double per_brute_force_test = 4.6e-9;  // one light for one pixel: 609 ms for 1024 at 480x270
-constexpr double per_frame_pixel = 0.46e-6;      // g-buffer, and finding the contributing lights of a pixel
-constexpr double per_light = 0.04e-6;            // script, upload, prepare
-constexpr double per_counted_pixel = 0.09e-6;    // counting lap: reading six counters back
-constexpr double start = 1.0;                    // device, calibration, scene
+// Seconds per unit on two cores of the software device, from the spans of runs of `quick` and `light_counts`
+// (harness.spans_ms over pixels, lights and laps).
+constexpr double per_shaded_pixel = 0.064e-6;  // list walk and shading of a handful of lights
+constexpr double per_frame_pixel = 0.8e-6;     // g-buffer, and finding the contributing lights of a pixel:
+constexpr double per_pixel_light = 0.06e-9;    // more of it with more lights
+constexpr double per_light = 0.04e-6;          // script, upload, prepare
+constexpr double per_counted_pixel = 0.25e-6;  // counting lap: reading six counters back
+constexpr double start = 1.0;                  // device, calibration
+constexpr double per_setup = 0.3, per_case = 0.4;  // scene; programs
+
+double frame_seconds(const Setup& setup, const AlgorithmSpec& algorithm, const AlgorithmEntry& entry) {
+  const double pixels = static_cast<double>(setup.width) * setup.height;
+  double seconds = pixels * per_shaded_pixel + setup.lights.count * per_light;
+  if (entry.further_seconds)
+    seconds += entry.further_seconds(algorithm.parameters, setup.width, setup.height, setup.lights.count);
+  return seconds;
+}
 
 }  // namespace
 
 Estimate estimate_run(const Config& config, const std::vector<Case>& cases) {
   Estimate estimate;
   estimate.seconds = start;
-  std::set<size_t> setups;
-  double laps = 1.0 + config.measure.warmup + config.measure.repeats;
+  std::map<size_t, bool> wants_lists;  // by setup: contributing lights are found in every lap
+  const double laps = 1.0 + config.measure.warmup + config.measure.repeats;
   for (const Case& item : cases) {
     const Setup& setup = config.setups[item.setup];
-    const AlgorithmInfo& info = find_algorithm(setup.algorithms[item.algorithm].name, item.id).info;
-    double pixels = static_cast<double>(setup.width) * setup.height, frames = setup.camera.frames,
-           lights = setup.lights.count;
-    double shade = info.reference_only ? pixels * lights * per_brute_force_test : pixels * per_shaded_pixel;
-    estimate.seconds += frames * (laps * (shade + lights * per_light) + pixels * per_counted_pixel);
-    if (setups.insert(item.setup).second) {
-      estimate.seconds += frames * laps * (pixels * per_frame_pixel + lights * per_light);
-      // Depth 4, surface 8, result 16, counters 24, reference 8 and its copies 8, lists about 16 bytes a
-      // pixel.
-      auto bytes = static_cast<uint64_t>(pixels * 84 + lights * 200);
-      estimate.memory_bytes = std::max(estimate.memory_bytes, bytes);
-    }
+    const AlgorithmSpec& algorithm = setup.algorithms[item.algorithm];
+    const AlgorithmEntry& entry = find_algorithm(algorithm.name, item.id);
+    const double pixels = static_cast<double>(setup.width) * setup.height, frames = setup.camera.frames;
+    estimate.seconds +=
+        per_case + frames * (laps * frame_seconds(setup, algorithm, entry) + pixels * per_counted_pixel);
+    wants_lists[item.setup] |= entry.info.needs_contributing_lists;
+  }
+  for (const auto& [index, every_lap] : wants_lists) {
+    const Setup& setup = config.setups[index];
+    const double pixels = static_cast<double>(setup.width) * setup.height, lights = setup.lights.count;
+    const double searched = setup.camera.frames * (every_lap ? laps : 1);
+    estimate.seconds +=
+        per_setup + searched * (pixels * (per_frame_pixel + lights * per_pixel_light) + lights * per_light);
+    // Depth 4, surface 8, result 16, counters 24, reference 8 and its copies 8, lists about 16 bytes a pixel.
+    estimate.memory_bytes =
+        std::max(estimate.memory_bytes, static_cast<uint64_t>(pixels * 84 + lights * 200));
   }
   return estimate;
 }
