@@ -206,6 +206,8 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
     Variant variant{.counting = counting, .long_walks = walks_far(frame, input), .tile_class = only_class_};
     variant.block_list = !one_class_;
     auto span = commands.span("shade");
+    // Every pixel is in one block, and every block in one dispatch.
+    auto apart = commands.unordered();
     if (one_class_) commands.dispatch(program(variant), into, uint32_t{0}, across, down);
     for (uint32_t c = 0, first = 0; !one_class_ && c < block_ends_.size(); ++c)
       for (variant.tile_class = c; first < block_ends_[c];
