@@ -194,7 +194,15 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
     for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
     if (!one_class_) commands.transfer(class_blocks_);
   }
-  const gpu::Bindings list = cull(commands, frame, input);
+  gpu::Bindings list;
+  const auto build = [&] { list = cull(commands, frame, input); };
+  const auto other_work = [&] { frame.record_shadow_maps(); };
+  if (effects_.compute_lists && entry_.info.builds_on_gpu()) {
+    commands.fork(build, other_work);
+  } else {
+    build();
+    other_work();
+  }
   const uint32_t across = (input.view.resolution.x + 7) / 8, down = (input.view.resolution.y + 7) / 8;
   const FrameTargets& targets = frame.targets();
   {

@@ -41,7 +41,7 @@ std::vector<double> shading_samples(const CaseResult& one) {
 // List building: every pass before shading.
 std::vector<double> cull_samples(const CaseResult& one) {
   return summed_samples(one, [](const std::string& name) {
-    return !is_shading(name) && name != "total" && name != "transfer";
+    return !is_shading(name) && name != "total" && name != "transfer" && name != "shadow_maps";
   });
 }
 
