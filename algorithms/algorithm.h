@@ -42,7 +42,7 @@ struct AlgorithmInfo {
   bool reference_only = false;            // too slow for ordinary runs: left out of "all"
   // Span names it writes, in order.
   std::vector<std::string> cpu_stages, gpu_stages{"shade"};
-  bool builds_on_gpu() const { return gpu_stages.size() > 1; }  // lists, by cull()
+  bool builds_on_gpu() const { return gpu_stages.size() > 1; }                 // lists, by cull()
   std::vector<std::string> shapes{"omni", "spot", "capsule", "wedge", "box"};  // light shapes it bounds
 };
 
