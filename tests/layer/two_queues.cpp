@@ -1,7 +1,8 @@
 // A Vulkan layer for tests: a device of one queue family and one queue seems to have a second queue. What is
 // submitted to it goes to the one there is, in the order of submission. So a software device shows what the
 // validation layer, which stands above this one, has to say of submissions to two queues: owners of images,
-// families of command pools, timestamps that a family does not have.
+// families of command pools, timestamps that a family does not have. What is used by a family that does not
+// have it is said on stderr (owners.h).
 //
 // ML_TWO_QUEUES=KIND:BITS   KIND: compute, a family that does compute and no graphics, with BITS valid bits
 // of timestamps; or main, a second queue of the main family.
@@ -15,7 +16,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/layer/owners.h"
+
 namespace {
+
+two_queues::Owners owners;
 
 // Dispatchable handles begin with the loader's own pointer, which is the same for all of one instance or
 // device.
@@ -213,6 +218,10 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
 VKAPI_ATTR VkResult VKAPI_CALL submit2(VkQueue queue, uint32_t count, const VkSubmitInfo2* list,
                                        VkFence fence) {
   const DeviceCalls& calls = of_device(queue);
+  const uint32_t family = wish().compute && real_queue(calls, queue) != queue ? 1 : 0;
+  for (uint32_t i = 0; i < count; ++i)
+    for (uint32_t j = 0; j < list[i].commandBufferInfoCount; ++j)
+      owners.submitted(list[i].pCommandBufferInfos[j].commandBuffer, family);
   return next<PFN_vkQueueSubmit2>(calls, "vkQueueSubmit2")(real_queue(calls, queue), count, list, fence);
 }
 
@@ -227,6 +236,85 @@ VKAPI_ATTR VkResult VKAPI_CALL create_pool(VkDevice device, const VkCommandPoolC
   changed.queueFamilyIndex = 0;
   return next<PFN_vkCreateCommandPool>(of_device(device), "vkCreateCommandPool")(device, &changed, allocator,
                                                                                  pool);
+}
+
+// What the owners are told of, and then done.
+
+VKAPI_ATTR VkResult VKAPI_CALL create_buffer(VkDevice device, const VkBufferCreateInfo* info,
+                                             const VkAllocationCallbacks* allocator, VkBuffer* buffer) {
+  const VkResult result =
+      next<PFN_vkCreateBuffer>(of_device(device), "vkCreateBuffer")(device, info, allocator, buffer);
+  if (result == VK_SUCCESS)
+    owners.created(reinterpret_cast<uint64_t>(*buffer), "a buffer", info->sharingMode);
+  return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL destroy_buffer(VkDevice device, VkBuffer buffer,
+                                          const VkAllocationCallbacks* allocator) {
+  owners.destroyed(reinterpret_cast<uint64_t>(buffer));
+  next<PFN_vkDestroyBuffer>(of_device(device), "vkDestroyBuffer")(device, buffer, allocator);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_image(VkDevice device, const VkImageCreateInfo* info,
+                                            const VkAllocationCallbacks* allocator, VkImage* image) {
+  const VkResult result =
+      next<PFN_vkCreateImage>(of_device(device), "vkCreateImage")(device, info, allocator, image);
+  if (result == VK_SUCCESS) owners.created(reinterpret_cast<uint64_t>(*image), "an image", info->sharingMode);
+  return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL destroy_image(VkDevice device, VkImage image,
+                                         const VkAllocationCallbacks* allocator) {
+  owners.destroyed(reinterpret_cast<uint64_t>(image));
+  next<PFN_vkDestroyImage>(of_device(device), "vkDestroyImage")(device, image, allocator);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_view(VkDevice device, const VkImageViewCreateInfo* info,
+                                           const VkAllocationCallbacks* allocator, VkImageView* view) {
+  const VkResult result =
+      next<PFN_vkCreateImageView>(of_device(device), "vkCreateImageView")(device, info, allocator, view);
+  if (result == VK_SUCCESS) owners.view_created(*view, info->image);
+  return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL allocate_sets(VkDevice device, const VkDescriptorSetAllocateInfo* info,
+                                             VkDescriptorSet* sets) {
+  const VkResult result =
+      next<PFN_vkAllocateDescriptorSets>(of_device(device), "vkAllocateDescriptorSets")(device, info, sets);
+  if (result == VK_SUCCESS) owners.sets_allocated(info->descriptorSetCount, sets);
+  return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL update_sets(VkDevice device, uint32_t count, const VkWriteDescriptorSet* writes,
+                                       uint32_t copies, const VkCopyDescriptorSet* copied) {
+  owners.sets_written(count, writes);
+  next<PFN_vkUpdateDescriptorSets>(of_device(device), "vkUpdateDescriptorSets")(device, count, writes, copies,
+                                                                                copied);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL begin_buffer(VkCommandBuffer buffer, const VkCommandBufferBeginInfo* info) {
+  owners.begun(buffer);
+  return next<PFN_vkBeginCommandBuffer>(of_device(buffer), "vkBeginCommandBuffer")(buffer, info);
+}
+
+VKAPI_ATTR void VKAPI_CALL bind_sets(VkCommandBuffer buffer, VkPipelineBindPoint point,
+                                     VkPipelineLayout layout, uint32_t first, uint32_t count,
+                                     const VkDescriptorSet* sets, uint32_t offsets, const uint32_t* offset) {
+  for (uint32_t i = 0; i < count; ++i) owners.set_bound(buffer, sets[i]);
+  next<PFN_vkCmdBindDescriptorSets>(of_device(buffer), "vkCmdBindDescriptorSets")(
+      buffer, point, layout, first, count, sets, offsets, offset);
+}
+
+VKAPI_ATTR void VKAPI_CALL pipeline_barrier2(VkCommandBuffer buffer, const VkDependencyInfo* info) {
+  owners.barriers(buffer, *info);
+  next<PFN_vkCmdPipelineBarrier2>(of_device(buffer), "vkCmdPipelineBarrier2")(buffer, info);
+}
+
+VKAPI_ATTR void VKAPI_CALL begin_rendering(VkCommandBuffer buffer, const VkRenderingInfo* info) {
+  for (uint32_t i = 0; i < info->colorAttachmentCount; ++i)
+    owners.attached(buffer, info->pColorAttachments[i].imageView);
+  if (info->pDepthAttachment) owners.attached(buffer, info->pDepthAttachment->imageView);
+  next<PFN_vkCmdBeginRendering>(of_device(buffer), "vkCmdBeginRendering")(buffer, info);
 }
 
 PFN_vkVoidFunction own(const char* name);
@@ -258,7 +346,18 @@ PFN_vkVoidFunction own(const char* name) {
       {"vkQueueSubmit", reinterpret_cast<PFN_vkVoidFunction>(submit)},
       {"vkQueueSubmit2", reinterpret_cast<PFN_vkVoidFunction>(submit2)},
       {"vkQueueWaitIdle", reinterpret_cast<PFN_vkVoidFunction>(wait_idle)},
-      {"vkCreateCommandPool", reinterpret_cast<PFN_vkVoidFunction>(create_pool)}};
+      {"vkCreateCommandPool", reinterpret_cast<PFN_vkVoidFunction>(create_pool)},
+      {"vkCreateBuffer", reinterpret_cast<PFN_vkVoidFunction>(create_buffer)},
+      {"vkDestroyBuffer", reinterpret_cast<PFN_vkVoidFunction>(destroy_buffer)},
+      {"vkCreateImage", reinterpret_cast<PFN_vkVoidFunction>(create_image)},
+      {"vkDestroyImage", reinterpret_cast<PFN_vkVoidFunction>(destroy_image)},
+      {"vkCreateImageView", reinterpret_cast<PFN_vkVoidFunction>(create_view)},
+      {"vkAllocateDescriptorSets", reinterpret_cast<PFN_vkVoidFunction>(allocate_sets)},
+      {"vkUpdateDescriptorSets", reinterpret_cast<PFN_vkVoidFunction>(update_sets)},
+      {"vkBeginCommandBuffer", reinterpret_cast<PFN_vkVoidFunction>(begin_buffer)},
+      {"vkCmdBindDescriptorSets", reinterpret_cast<PFN_vkVoidFunction>(bind_sets)},
+      {"vkCmdPipelineBarrier2", reinterpret_cast<PFN_vkVoidFunction>(pipeline_barrier2)},
+      {"vkCmdBeginRendering", reinterpret_cast<PFN_vkVoidFunction>(begin_rendering)}};
   auto found = functions.find(name);
   return found == functions.end() ? nullptr : found->second;
 }
