@@ -42,6 +42,7 @@ struct AlgorithmInfo {
   bool reference_only = false;            // too slow for ordinary runs: left out of "all"
   // Span names it writes, in order.
   std::vector<std::string> cpu_stages, gpu_stages{"shade"};
+  bool builds_on_gpu() const { return gpu_stages.size() > 1; }                 // lists, by cull()
   std::vector<std::string> shapes{"omni", "spot", "capsule", "wedge", "box"};  // light shapes it bounds
 };
 
@@ -157,7 +158,8 @@ class Algorithm {
   // passes that look at lights. The device outlives the algorithm.
   virtual void create_gpu(gpu::Device&, const std::vector<gpu::Constant>& /*shared*/) {}
   // Records the passes of the frame that prepare() saw last, each in a named span. `frame`: what they may
-  // bind, the frame's View, Depth, Surface, Lights and Extras and the algorithm's upload buffers.
+  // bind, the frame's View, Depth, Surface, Lights and Extras and the algorithm's upload buffers. Dispatches
+  // alone: they may run on a queue that knows no graphics, beside other work (gpu::Commands::fork).
   virtual void cull(gpu::Commands&, const FrameInput&, const std::vector<gpu::Binding>& /*frame*/) {}
   // Adds the device buffers that cull() fills and the shading loop binds; asked for after each cull().
   virtual void gpu_bindings(std::vector<gpu::Binding>&) const {}

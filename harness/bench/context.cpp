@@ -87,6 +87,9 @@ nlohmann::json run_context(const gpu::Device& device, const Calibration& calibra
             {"storage_buffer_range", limits.storage_buffer_range},
             {"timestamp_period_ns", limits.timestamp_period_ns},
             {"timestamp_valid_bits", limits.timestamp_valid_bits},
+            {"second_queue", gpu::in_words(info.second_queue)},
+            {"second_timestamp_valid_bits",
+             info.second_queue == gpu::SecondQueue::none ? 0 : limits.second_timestamp_valid_bits},
             {"validation", device.validation_enabled()}}},
           {"environment", environment()},
           {"calibration", calibration.to_json()}};

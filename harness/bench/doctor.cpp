@@ -17,8 +17,8 @@ constexpr uint32_t noise_samples = 30;
 std::string list_devices_text() {
   std::string text = "devices\n";
   for (const gpu::DeviceInfo& info : gpu::list_devices())
-    text += fmt::format("  {}: {} ({}), Vulkan {}, {}, UUID {}{}\n", info.index, info.name, info.type,
-                        info.api_version, info.driver, info.uuid,
+    text += fmt::format("  {}: {} ({}), Vulkan {}, {}, UUID {}, second queue: {}{}\n", info.index, info.name,
+                        info.type, info.api_version, info.driver, info.uuid, gpu::in_words(info.second_queue),
                         info.missing.empty() ? "" : ", cannot be used: lacks " + info.missing);
   return text;
 }
@@ -52,6 +52,16 @@ DoctorReport examine(const std::string& device_selector) {
                   limits.image_size, limits.fp64 ? "yes" : "no");
   report.text += fmt::format("  timestamps: {} valid bits, {} ns a tick\n", limits.timestamp_valid_bits,
                              limits.timestamp_period_ns);
+  switch (device.info().second_queue) {
+    case gpu::SecondQueue::none:
+      report.text += "  one queue: lists cannot be built beside other work (shading.list_queue)\n";
+      break;
+    case gpu::SecondQueue::compute_family:
+    case gpu::SecondQueue::main_family:
+      report.text += fmt::format(
+          "  second queue of the {}, for lists (shading.list_queue); its timestamps: {} valid bits\n",
+          gpu::in_words(device.info().second_queue), limits.second_timestamp_valid_bits);
+  }
   if (software)
     report.text +=
         "  a software device: its \"GPU\" time is time of these CPU cores, and says nothing about a GPU\n";

@@ -17,12 +17,18 @@ constexpr double per_frame_pixel = 0.8e-6;     // g-buffer, and finding the cont
 constexpr double per_pixel_light = 0.06e-9;    // more of it with more lights
 constexpr double per_light = 0.04e-6;          // script, upload, prepare
 constexpr double per_counted_pixel = 0.25e-6;  // counting lap: reading six counters back
+constexpr double per_shadow_pixel = 3.1e-9;    // one pixel of a depth-only picture: 13 ms for 4 of 1024 px
 constexpr double start = 1.0;                  // device, calibration
 constexpr double per_setup = 0.3, per_case = 0.4;  // scene; programs
 
+double shadow_pixels(const Setup& setup) {
+  return 1.0 * setup.shading.shadow_maps * setup.shading.shadow_map_size * setup.shading.shadow_map_size;
+}
+
 double frame_seconds(const Setup& setup, const AlgorithmSpec& algorithm, const AlgorithmEntry& entry) {
   const double pixels = static_cast<double>(setup.width) * setup.height;
-  double seconds = pixels * per_shaded_pixel + setup.lights.count * per_light;
+  double seconds =
+      pixels * per_shaded_pixel + setup.lights.count * per_light + shadow_pixels(setup) * per_shadow_pixel;
   if (entry.further_seconds)
     seconds += entry.further_seconds(algorithm.parameters, setup.width, setup.height, setup.lights.count);
   return seconds;
@@ -51,8 +57,8 @@ Estimate estimate_run(const Config& config, const std::vector<Case>& cases) {
     estimate.seconds +=
         per_setup + searched * (pixels * (per_frame_pixel + lights * per_pixel_light) + lights * per_light);
     // Depth 4, surface 8, result 16, counters 24, reference 8 and its copies 8, lists about 16 bytes a pixel.
-    estimate.memory_bytes =
-        std::max(estimate.memory_bytes, static_cast<uint64_t>(pixels * 84 + lights * 200));
+    estimate.memory_bytes = std::max(
+        estimate.memory_bytes, static_cast<uint64_t>(pixels * 84 + lights * 200 + shadow_pixels(setup) * 4));
   }
   return estimate;
 }

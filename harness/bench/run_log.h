@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/base/spans.h"
+#include "harness/gpu/submission_times.h"
 #include "harness/output/result.h"
 
 namespace ml {
@@ -30,6 +31,15 @@ class RunLog {
       events_.push_back({name, row, begin, duration, arguments});
       begin += duration;
     }
+  }
+  // The device's spans of one submission, where they stand in it.
+  void trace(Clock::time_point at, const std::vector<gpu::SubmissionTimes::Interval>& spans,
+             const std::map<std::string, std::string>& arguments) {
+    if (!trace_) return;
+    const double begin = milliseconds_between(begin_, at);
+    for (const gpu::SubmissionTimes::Interval& span : spans)
+      events_.push_back({span.name, span.second_queue ? "gpu, second queue" : "gpu",
+                         begin + std::max(span.begin, 0.0), span.end - span.begin, arguments});
   }
   const std::vector<TraceEvent>& events() const { return events_; }
 

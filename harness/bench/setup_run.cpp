@@ -8,6 +8,7 @@
 #include "harness/bench/calibration.h"
 #include "harness/bench/case_pictures.h"
 #include "harness/bench/interruption.h"
+#include "harness/bench/overlap.h"
 
 namespace ml {
 namespace {
@@ -66,6 +67,8 @@ SetupRun::SetupRun(gpu::Device& device, const Config& config, const std::vector<
         std::make_unique<ShadedAlgorithm>(device_, entry, spec.parameters, workload_.effects()));
     wants_lists_ |= entry.info.needs_contributing_lists;
     results_.push_back(empty_result(config_, item, workload_));
+    results_.back().overlap = expected_overlap(device_, setup_of(config_, cases_).shading, entry.info,
+                                               config_.measure, workload_.frames().frames());
   }
   contradictions_.assign(cases_.size(), 0);
 }
@@ -108,10 +111,12 @@ void SetupRun::counting_lap(const Step& done) {
       done(1, "counting " + cases_[i].id);
     }
   }
-  for (size_t i = 0; i < cases_.size(); ++i)
+  for (size_t i = 0; i < cases_.size(); ++i) {
     results_[i].memory_bytes = {{"lists", algorithms_[i]->upload_bytes()},
                                 {"lights", frame_.light_bytes()},
                                 {"targets", frame_.target_bytes()}};
+    if (frame_.shadow_maps()) results_[i].memory_bytes["shadow_maps"] = frame_.shadow_map_bytes();
+  }
 }
 
 void SetupRun::timed_lap(uint32_t lap, const Step& done) {
@@ -147,6 +152,7 @@ void SetupRun::timed_lap(uint32_t lap, const Step& done) {
       result.cpu_ms.set("total", repeat, index, prepare_ms);
       for (const auto& [name, ms] : times.spans) result.gpu_ms.set(name, repeat, index, ms);
       result.gpu_ms.set("total", repeat, index, times.whole);
+      add_overlap(result.overlap, times, repeat, index);
       if (std::string why = timing_contradiction(times, timing); !why.empty()) {
         ++contradictions_[i];
         if (result.timing_note.empty()) result.timing_note = why;
@@ -154,7 +160,7 @@ void SetupRun::timed_lap(uint32_t lap, const Step& done) {
       std::map<std::string, std::string> arguments{
           {"case", cases_[i].id}, {"frame", std::to_string(index)}, {"repeat", std::to_string(repeat)}};
       log_.trace("cpu", begin, stages, arguments);
-      log_.trace("gpu", prepared, times.spans, arguments);
+      log_.trace(prepared, times.intervals, arguments);
     }
   }
   if (!measured) return;
@@ -164,6 +170,7 @@ void SetupRun::timed_lap(uint32_t lap, const Step& done) {
     uint32_t samples = (repeat + 1) * workload_.frames().frames();
     results_[i].timing_suspect = contradictions_[i] * 4 > samples;
     results_[i].repeats_done = repeat + 1;
+    settle_overlap(results_[i].overlap, repeat + 1);
   }
 }
 

@@ -57,6 +57,9 @@ Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const S
   effects_.alpha_mask = setup.effects.alpha_mask && Level::has_masked_material(*scene_);
   effects_.forward = setup.effects.forward && Level::has_forward_material(*scene_);
   effects_.split_targets = setup.shading.targets == ShadingTargets::split;
+  effects_.shadow_maps = setup.shading.shadow_maps;
+  effects_.shadow_map_size = setup.shading.shadow_map_size;
+  effects_.compute_lists = setup.shading.list_queue == ListQueue::compute;
   frames_ = std::make_unique<FrameSequence>(*scene_, *lights_, path_, setup.camera.frames, setup.width,
                                             setup.height, threads_, effects_.shapes());
 }

@@ -22,11 +22,10 @@ const std::vector<Row>& metrics() {
       {"cpu_ms",
        "prepare() on the CPU by stage (cull, sort, bin, build, upload) and in total, [repeat][frame]"},
       {"gpu_ms",
-       "the device's time by pass (bounds, coarse, lists, shade, composite, forward) and in total, "
-       "[repeat][frame]; on "
-       "a "
-       "software device this is "
-       "CPU time"},
+       "the device's time by pass (bounds, coarse, lists, shadow_maps, shade, composite, forward) and in "
+       "total, first to last stamp of all queues, [repeat][frame]; on a software device this is CPU time"},
+      {"overlap.ms", "for how long list building and shadow maps ran at the same time, [repeat][frame]"},
+      {"overlap.overlapped", "whether they did in most samples; overlap.note says why not"},
       {"in_frustum", "lights left after culling against the view, per frame"},
       {"listed", "lights in the list that a pixel walks, mean over lit pixels"},
       {"tested", "lights whose volume was tested for a pixel, mean over lit pixels"},
@@ -67,6 +66,12 @@ const std::vector<Row>& effects() {
       {"split_targets",
        "diffuse and specular light written apart and put together by a composite pass (shading.targets: one "
        "| split)"},
+      {"shadow_maps",
+       "depth-only pictures from the largest lights, which light nothing: work for list building to run "
+       "beside (shading.shadow_maps: 0 to 16, shading.shadow_map_size)"},
+      {"compute_lists",
+       "lists that the device builds are built on its second queue, beside the shadow maps "
+       "(shading.list_queue: graphics | compute)"},
       {"long_lists", "passes over all lights take several a turn; with more than 28,000 lights"},
   };
   return rows;
@@ -136,10 +141,10 @@ std::vector<Row> rows_of(const std::string& what) {
     for (const ConfigInfo& info : known_configs()) rows.push_back({info.name, info.summary});
   else if (what == "devices")
     for (const gpu::DeviceInfo& info : gpu::list_devices())
-      rows.push_back(
-          {fmt::format("{}: {}", info.index, info.name),
-           fmt::format("{}, Vulkan {}, {}, UUID {}{}", info.type, info.api_version, info.driver, info.uuid,
-                       info.missing.empty() ? "" : "; cannot be used, lacks " + info.missing)});
+      rows.push_back({fmt::format("{}: {}", info.index, info.name),
+                      fmt::format("{}, Vulkan {}, {}, UUID {}, second queue: {}{}", info.type,
+                                  info.api_version, info.driver, info.uuid, gpu::in_words(info.second_queue),
+                                  info.missing.empty() ? "" : "; cannot be used, lacks " + info.missing)});
   else if (what == "metrics")
     rows = metrics();
   else

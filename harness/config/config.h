@@ -54,8 +54,15 @@ struct EffectsSpec {
 // by a composite pass that folds in the albedo.
 enum class ShadingTargets { one, split };
 
+// Where lists that the GPU builds are built: with everything else, or on the device's second queue, beside
+// the shadow maps.
+enum class ListQueue { graphics, compute };
+
 struct ShadingSpec {
   ShadingTargets targets = ShadingTargets::one;
+  uint32_t shadow_maps = 0;         // drawn in a frame, [0, 16]; they light nothing yet
+  uint32_t shadow_map_size = 1024;  // px a side, [16, 8192]
+  ListQueue list_queue = ListQueue::graphics;
 };
 
 struct AlgorithmSpec {

@@ -135,6 +135,11 @@ const std::vector<std::string>& shading_target_names() {
   return names;
 }
 
+const std::vector<std::string>& list_queue_names() {
+  static const std::vector<std::string> names{"graphics", "compute"};
+  return names;
+}
+
 }  // namespace
 
 std::span<const Field<SceneSpec>> scene_fields() {
@@ -245,6 +250,12 @@ std::span<const Field<ShadingSpec>> shading_fields() {
       {"targets",
        [](const Node& n, S& s) { s.targets = read_enum<ShadingTargets>(n, shading_target_names()); },
        [](const S& s) { return write_enum(s.targets, shading_target_names()); }},
+      {"shadow_maps", [](const Node& n, S& s) { s.shadow_maps = n.unsigned_integer(0, 16); },
+       [](const S& s) { return json(s.shadow_maps); }},
+      {"shadow_map_size", [](const Node& n, S& s) { s.shadow_map_size = n.unsigned_integer(16, 8192); },
+       [](const S& s) { return json(s.shadow_map_size); }},
+      {"list_queue", [](const Node& n, S& s) { s.list_queue = read_enum<ListQueue>(n, list_queue_names()); },
+       [](const S& s) { return write_enum(s.list_queue, list_queue_names()); }},
   });
   return fields;
 }

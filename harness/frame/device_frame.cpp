@@ -39,6 +39,8 @@ std::vector<std::string> Effects::names() const {
   if (alpha_mask) list.emplace_back("alpha_mask");
   if (forward) list.emplace_back("forward");
   if (split_targets) list.emplace_back("split_targets");
+  if (shadow_maps) list.emplace_back("shadow_maps");
+  if (compute_lists) list.emplace_back("compute_lists");
   if (long_lists) list.emplace_back("long_lists");
   return list;
 }
@@ -81,13 +83,16 @@ DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const Effects&
                          uint32_t height)
     : device_(device),
       effects_(effects),
-      level_(device, scene, effects.alpha_mask, effects.forward),
+      level_(device, scene, effects.alpha_mask, effects.forward, effects.shadow_maps > 0),
       targets_(device, width, height, effects.forward, effects.split_targets),
       commands_(device),
       view_(device, sizeof(gpu_data::ViewData), gpu::MemoryKind::upload, "view"),
       lights_(device, "lights"),
       extras_(device, "light extras"),
-      passes_(std::make_unique<ContributingPasses>(device, effects, width, height)) {}
+      passes_(std::make_unique<ContributingPasses>(device, effects, width, height)) {
+  if (effects.shadow_maps)
+    shadow_maps_ = std::make_unique<ShadowMaps>(device, effects.shadow_maps, effects.shadow_map_size);
+}
 
 DeviceFrame::~DeviceFrame() = default;
 
@@ -95,6 +100,7 @@ void DeviceFrame::load(const FrameInput& input) {
   std::memcpy(view_.mapped().data(), &input.view, sizeof input.view);
   upload(lights_, input.lights.core);
   upload(extras_, input.lights.extra);
+  if (shadow_maps_) shadow_maps_->load(input);
   commands_.begin(gpu::Timing::none);
   commands_.transfer(lights_);
   commands_.transfer(extras_);

@@ -8,6 +8,7 @@
 
 #include "algorithms/algorithm.h"
 #include "harness/frame/level.h"
+#include "harness/frame/shadow_maps.h"
 #include "harness/frame/targets.h"
 #include "harness/gpu/commands.h"
 
@@ -26,6 +27,11 @@ struct Effects {
   // The shading pass writes diffuse and specular light apart (shading.targets: split), not a property of the
   // content.
   bool split_targets = false;
+  // Nor are these: so many shadow maps of so many px are drawn in a frame, which light nothing yet
+  // (shading.shadow_maps); lists that the GPU builds are built on the second queue beside them
+  // (shading.list_queue: compute).
+  uint32_t shadow_maps = 0, shadow_map_size = 1024;
+  bool compute_lists = false;
   // Passes over all lights that are fit for more than `most_turns` of them (shaders/light_eval.glsl says
   // why); costs compile time. Shading loops go by what a frame's pixels walk (ShadedAlgorithm).
   bool long_lists = true;
@@ -75,6 +81,13 @@ class DeviceFrame {
   const gpu::Buffer& view() const { return view_; }
   uint64_t light_bytes() const { return lights_.used() + extras_.used(); }
   uint64_t target_bytes() const;
+  uint64_t shadow_map_bytes() const { return shadow_maps_ ? shadow_maps_->bytes() : 0; }
+  // Null when there are none.
+  const ShadowMaps* shadow_maps() const { return shadow_maps_.get(); }
+  // Records the shadow maps, where there are any.
+  void record_shadow_maps() {
+    if (shadow_maps_) shadow_maps_->record(commands_, level_);
+  }
   // Records the forward pass with this program of Level::forward_program. Only with the effect.
   void record_forward(const gpu::RasterProgram& program, const gpu::Bindings& bindings) {
     level_.record_forward(commands_, program, bindings, targets_);
@@ -96,6 +109,7 @@ class DeviceFrame {
   Level level_;
   FrameTargets targets_;
   std::unique_ptr<CounterTargets> counters_;
+  std::unique_ptr<ShadowMaps> shadow_maps_;
   gpu::Commands commands_;
   gpu::Buffer view_;
   gpu::UploadBuffer lights_, extras_;

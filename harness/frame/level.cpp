@@ -8,6 +8,9 @@
 #include "spirv/gbuffer_forward_frag.h"
 #include "spirv/gbuffer_frag.h"
 #include "spirv/gbuffer_vert.h"
+#include "spirv/shadow_masked_frag.h"
+#include "spirv/shadow_masked_vert.h"
+#include "spirv/shadow_vert.h"
 
 namespace ml {
 namespace {
@@ -47,6 +50,19 @@ std::unique_ptr<gpu::RasterProgram> gbuffer_program(gpu::Device& device, bool ma
       masked ? "gbuffer (alpha mask)" : "gbuffer", state, std::vector<gpu::Constant>{{0, masked}});
 }
 
+// Opaque triangles need no fragment shader, and of a vertex its position alone.
+std::unique_ptr<gpu::RasterProgram> depth_program(gpu::Device& device, bool masked) {
+  gpu::RasterState state;
+  state.vertex_stride = sizeof(Vertex);
+  state.attributes = {{offsetof(Vertex, position), 3}};
+  if (!masked)
+    return std::make_unique<gpu::RasterProgram>(device, shadow_vert, std::span<const uint32_t>{},
+                                                "shadow map", state);
+  state.attributes.push_back({offsetof(Vertex, uv), 2});
+  return std::make_unique<gpu::RasterProgram>(device, shadow_masked_vert, shadow_masked_frag,
+                                              "shadow map (alpha mask)", state);
+}
+
 }  // namespace
 
 bool Level::has_masked_material(const Scene& scene) {
@@ -61,7 +77,7 @@ bool Level::has_forward_material(const Scene& scene) {
   });
 }
 
-Level::Level(gpu::Device& device, const Scene& scene, bool alpha_mask, bool forward)
+Level::Level(gpu::Device& device, const Scene& scene, bool alpha_mask, bool forward, bool shadows)
     : vertices_(filled(device, scene.vertices, "vertices")),
       indices_(filled(device, scene.indices, "indices")) {
   if (forward && !device.limits().fragment_triangles)
@@ -92,6 +108,19 @@ Level::Level(gpu::Device& device, const Scene& scene, bool alpha_mask, bool forw
       std::any_of(items_.begin(), items_.end(), [](const DrawItem& item) { return item.masked; });
   opaque_ = gbuffer_program(device, false, forward);
   if (any_masked) masked_ = gbuffer_program(device, true, forward);
+  if (!shadows) return;
+  depth_opaque_ = depth_program(device, false);
+  if (any_masked) depth_masked_ = depth_program(device, true);
+}
+
+gpu::DrawCall Level::call_of(const DrawItem& item, const gpu::RasterProgram& program) {
+  gpu::DrawCall call;
+  call.first_index = item.first_index;
+  call.index_count = item.index_count;
+  call.double_sided = item.double_sided;
+  call.program = &program;
+  call.push = item.push;
+  return call;
 }
 
 void Level::record_gbuffer(gpu::Commands& commands, const gpu::Buffer& view,
@@ -99,18 +128,25 @@ void Level::record_gbuffer(gpu::Commands& commands, const gpu::Buffer& view,
   std::vector<gpu::DrawCall> draws;
   draws.reserve(items_.size());
   for (const DrawItem& item : items_) {
-    gpu::DrawCall call;
-    call.first_index = item.first_index;
-    call.index_count = item.index_count;
-    call.double_sided = item.double_sided;
-    call.program = item.masked ? masked_.get() : opaque_.get();
+    gpu::DrawCall call = call_of(item, item.masked ? *masked_ : *opaque_);
     call.bindings = {{"View", view}, {"BaseColor", textures_[item.texture]}};
-    call.push = item.push;
     draws.push_back(std::move(call));
   }
   gpu::RasterTargets into{{&targets.surface}, &targets.depth};
   if (targets.forward) into.colors.push_back(&*targets.forward);
   commands.raster(into, vertices_, indices_, draws);
+}
+
+void Level::record_depth(gpu::Commands& commands, const gpu::Buffer& view, const gpu::Image& depth) const {
+  std::vector<gpu::DrawCall> draws;
+  draws.reserve(items_.size());
+  for (const DrawItem& item : items_) {
+    gpu::DrawCall call = call_of(item, item.masked ? *depth_masked_ : *depth_opaque_);
+    call.bindings = {{"View", view}};
+    if (item.masked) call.bindings.emplace_back("BaseColor", textures_[item.texture]);
+    draws.push_back(std::move(call));
+  }
+  commands.raster({{}, &depth}, vertices_, indices_, draws);
 }
 
 gpu::RasterProgram Level::forward_program(gpu::Device& device, std::span<const uint32_t> fragment,
@@ -127,14 +163,9 @@ void Level::record_forward(gpu::Commands& commands, const gpu::RasterProgram& pr
   std::vector<gpu::DrawCall> draws;
   for (const DrawItem& item : items_) {
     if (!item.forward) continue;
-    gpu::DrawCall call;
-    call.first_index = item.first_index;
-    call.index_count = item.index_count;
-    call.double_sided = item.double_sided;
-    call.program = &program;
+    gpu::DrawCall call = call_of(item, program);
     call.bindings = bindings;
     call.bindings.emplace_back("BaseColor", textures_[item.texture]);
-    call.push = item.push;
     draws.push_back(std::move(call));
   }
   commands.raster({{&targets.result}, &targets.depth, true}, vertices_, indices_, draws);

@@ -198,7 +198,15 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
     for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
     if (!one_class_) commands.transfer(class_blocks_);
   }
-  const gpu::Bindings list = cull(commands, frame, input);
+  gpu::Bindings list;
+  const auto build = [&] { list = cull(commands, frame, input); };
+  const auto other_work = [&] { frame.record_shadow_maps(); };
+  if (effects_.compute_lists && entry_.info.builds_on_gpu()) {
+    commands.fork(build, other_work);
+  } else {
+    build();
+    other_work();
+  }
   const uint32_t across = (input.view.resolution.x + 7) / 8, down = (input.view.resolution.y + 7) / 8;
   const FrameTargets& targets = frame.targets();
   {
@@ -210,6 +218,8 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
     Variant variant{.counting = counting, .long_walks = walks_far(frame, input), .tile_class = only_class_};
     variant.block_list = !one_class_;
     auto span = commands.span("shade");
+    // Every pixel is in one block, and every block in one dispatch.
+    auto apart = commands.unordered();
     if (one_class_) commands.dispatch(program(variant), into, uint32_t{0}, across, down);
     for (uint32_t c = 0, first = 0; !one_class_ && c < block_ends_.size(); ++c)
       for (variant.tile_class = c; first < block_ends_[c];

@@ -1,7 +1,8 @@
 // One command buffer, one submission in flight: record, submit, wait, read the times.
 //
 // A pass is one call: dispatch(program, bindings, push constants, groups). Passes are ordered by full memory
-// barriers, so that an algorithm writes no synchronisation of its own.
+// barriers, so that an algorithm writes no synchronisation of its own. A submission may be forked once: part
+// of it then runs on the device's second queue.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,7 @@
 
 #include "harness/gpu/program.h"
 #include "harness/gpu/resources.h"
+#include "harness/gpu/submission_times.h"
 
 namespace ml::gpu {
 
@@ -36,14 +38,6 @@ enum class Timing {
   none,    // no stamps
   stages,  // every span stands alone between full barriers
   whole,   // only the whole submission is stamped; spans cost nothing
-};
-
-// Times of one submission, in milliseconds.
-struct SubmissionTimes {
-  std::vector<std::pair<std::string, double>>
-      spans;         // in order of recording, sums by name; empty unless Timing::stages
-  double whole = 0;  // first to last stamp; 0 when not timed
-  double fence = 0;  // CPU clock from submit to fence
 };
 
 struct DrawCall {
@@ -70,6 +64,13 @@ class Commands {
   void begin(Timing timing);
   // Submits, waits for the fence and reads the stamps. Throws SystemError when the device is lost.
   SubmissionTimes submit();
+
+  // What `second` records runs on the device's second queue, beside what `beside` records for the main one;
+  // both come after what was recorded before, and what is recorded from then on comes after both. The two
+  // must not write what the other uses. `second` holds no draws, and no image may be used by both
+  // (std::logic_error). A device with one queue runs `second`, then `beside`, through the same submissions
+  // and semaphores.
+  void fork(const std::function<void()>& second, const std::function<void()>& beside);
 
   // Compute. `bindings` may name more than the program uses; everything it uses must be there
   // (std::logic_error with the name).
@@ -107,9 +108,25 @@ class Commands {
   };
   [[nodiscard]] Span span(std::string_view name);
 
+  // Passes until the returned object dies write nothing that another of them touches, though it may lie in
+  // the same image or buffer: no barriers stand between them, only one behind the last.
+  class Unordered {
+   public:
+    ~Unordered() { commands_.end_unordered(); }
+    Unordered(const Unordered&) = delete;
+    Unordered& operator=(const Unordered&) = delete;
+
+   private:
+    friend class Commands;
+    explicit Unordered(Commands& commands) : commands_(commands) {}
+    Commands& commands_;
+  };
+  [[nodiscard]] Unordered unordered();
+
  private:
   friend class Span;
   void end_span();
+  void end_unordered();
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

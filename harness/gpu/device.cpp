@@ -20,6 +20,9 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
   auto* log = static_cast<MessageLog*>(user);
   std::lock_guard lock(log->mutex);
+  if (log->writes_apart && data->pMessageIdName &&
+      std::string_view(data->pMessageIdName) == "SYNC-HAZARD-WRITE-AFTER-WRITE")
+    return VK_FALSE;
   log->messages.emplace_back(data->pMessage ? data->pMessage : "(no text)");
   return VK_FALSE;
 }
@@ -76,13 +79,39 @@ std::string type_name(vk::PhysicalDeviceType type) {
   }
 }
 
-uint32_t compute_family(const vk::raii::PhysicalDevice& physical) {
-  auto families = physical.getQueueFamilyProperties();
+// Families and places in them of the two queues.
+struct QueueChoice {
+  uint32_t main = UINT32_MAX;  // UINT32_MAX: there is none that does both graphics and compute
+  uint32_t second = UINT32_MAX, second_index = 0;
+  SecondQueue kind = SecondQueue::none;
+};
+
+QueueChoice choose_queues(const vk::raii::PhysicalDevice& physical) {
+  using Flag = vk::QueueFlagBits;
+  const std::vector<vk::QueueFamilyProperties> families = physical.getQueueFamilyProperties();
+  QueueChoice choice;
+  for (uint32_t i = 0; i < families.size() && choice.main == UINT32_MAX; ++i)
+    if ((families[i].queueFlags & Flag::eGraphics) && (families[i].queueFlags & Flag::eCompute))
+      choice.main = i;
+  if (choice.main == UINT32_MAX) return choice;
+  // Among families of the kind rather one whose passes can be timed.
   for (uint32_t i = 0; i < families.size(); ++i) {
-    auto wanted = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
-    if ((families[i].queueFlags & wanted) == wanted) return i;
+    const bool fits =
+        (families[i].queueFlags & Flag::eCompute) && !(families[i].queueFlags & Flag::eGraphics);
+    if (!fits || families[i].queueCount == 0) continue;
+    if (choice.kind == SecondQueue::compute_family &&
+        (families[choice.second].timestampValidBits || !families[i].timestampValidBits))
+      continue;
+    choice.second = i;
+    choice.kind = SecondQueue::compute_family;
   }
-  return UINT32_MAX;
+  if (choice.kind != SecondQueue::none) return choice;
+  choice.second = choice.main;
+  if (families[choice.main].queueCount > 1) {
+    choice.second_index = 1;
+    choice.kind = SecondQueue::main_family;
+  }
+  return choice;
 }
 
 // What the device lacks, in words; empty when it has all.
@@ -96,7 +125,7 @@ std::string missing_features(const vk::raii::PhysicalDevice& physical) {
   if (!v12.scalarBlockLayout) return "scalarBlockLayout";
   if (!v13.synchronization2) return "synchronization2";
   if (!v13.dynamicRendering) return "dynamicRendering";
-  if (compute_family(physical) == UINT32_MAX) return "a queue for graphics and compute";
+  if (choose_queues(physical).main == UINT32_MAX) return "a queue for graphics and compute";
   return "";
 }
 
@@ -116,6 +145,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical, uint32_t index) {
       fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(properties.apiVersion),
                   VK_API_VERSION_MINOR(properties.apiVersion), VK_API_VERSION_PATCH(properties.apiVersion));
   info.missing = missing_features(physical);
+  info.second_queue = choose_queues(physical).kind;
   return info;
 }
 
@@ -175,7 +205,7 @@ size_t choose(const std::vector<DeviceInfo>& infos, std::string selector) {
   return matches[0];
 }
 
-DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, uint32_t family) {
+DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, const QueueChoice& queues) {
   auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>();
   const vk::PhysicalDeviceLimits& limits = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
   DeviceLimits result;
@@ -192,7 +222,9 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, uint32_t fami
   result.subgroup_exchange = (subgroups.supportedStages & vk::ShaderStageFlagBits::eCompute) &&
                              (subgroups.supportedOperations & exchange) == exchange;
   result.push_constant_bytes = limits.maxPushConstantsSize;
-  result.timestamp_valid_bits = physical.getQueueFamilyProperties()[family].timestampValidBits;
+  const std::vector<vk::QueueFamilyProperties> families = physical.getQueueFamilyProperties();
+  result.timestamp_valid_bits = families[queues.main].timestampValidBits;
+  result.second_timestamp_valid_bits = families[queues.second].timestampValidBits;
   result.timestamp_period_ns = static_cast<double>(limits.timestampPeriod);
   const vk::PhysicalDeviceFeatures features = physical.getFeatures();
   result.fp64 = features.shaderFloat64;
@@ -205,10 +237,14 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, uint32_t fami
   return result;
 }
 
-vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, uint32_t family,
+vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, const QueueChoice& queues,
                              const DeviceLimits& limits) {
-  float priority = 1;
-  vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
+  const std::array<float, 2> priorities{1, 1};
+  std::vector<vk::DeviceQueueCreateInfo> wanted;
+  wanted.emplace_back(vk::DeviceQueueCreateFlags{}, queues.main,
+                      queues.kind == SecondQueue::main_family ? 2 : 1, priorities.data());
+  if (queues.kind == SecondQueue::compute_family)
+    wanted.emplace_back(vk::DeviceQueueCreateFlags{}, queues.second, 1, priorities.data());
   vk::PhysicalDeviceVulkan13Features v13;
   v13.synchronization2 = v13.dynamicRendering = VK_TRUE;
   v13.maintenance4 =
@@ -221,12 +257,23 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, uint32_t 
   features.features.geometryShader = limits.fragment_triangles;
   features.features.fragmentStoresAndAtomics = limits.fragment_stores;
   features.pNext = &v12;
-  vk::DeviceCreateInfo info({}, queue);
+  vk::DeviceCreateInfo info({}, wanted);
   info.pNext = &features;
   return {physical, info};
 }
 
 }  // namespace
+
+const char* in_words(SecondQueue queue) {
+  switch (queue) {
+    case SecondQueue::compute_family:
+      return "compute family";
+    case SecondQueue::main_family:
+      return "main family";
+    default:
+      return "none";
+  }
+}
 
 std::vector<DeviceInfo> list_devices() {
   vk::raii::Context context = load_vulkan();
@@ -261,11 +308,12 @@ Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>()) {
     size_t chosen = choose(infos, options.selector);
     d.physical = std::move(physical[chosen]);
     d.info = infos[chosen];
-    d.queue_family = compute_family(d.physical);
-    d.limits = read_limits(d.physical, d.queue_family);
+    const QueueChoice queues = choose_queues(d.physical);
+    d.limits = read_limits(d.physical, queues);
     d.memory = d.physical.getMemoryProperties();
-    d.device = make_device(d.physical, d.queue_family, d.limits);
-    d.queue = vk::raii::Queue(d.device, d.queue_family, 0);
+    d.device = make_device(d.physical, queues, d.limits);
+    d.main = {vk::raii::Queue(d.device, queues.main, 0), queues.main};
+    d.second = {vk::raii::Queue(d.device, queues.second, queues.second_index), queues.second};
     d.validation = options.validation;
   } catch (const vk::Error& error) {
     throw SystemError(std::string("cannot open a Vulkan device: ") + error.what());

@@ -10,6 +10,11 @@
 
 namespace ml::gpu {
 
+// What can run beside the main queue, which does graphics and compute: a queue of a family that does compute
+// and no graphics, or else another one of the main family.
+enum class SecondQueue { none, compute_family, main_family };
+const char* in_words(SecondQueue queue);  // "none", "compute family", "main family"
+
 // What a user needs to recognise a device, and what the result says of it.
 struct DeviceInfo {
   uint32_t index = 0;  // in the order in which the loader lists the devices
@@ -19,6 +24,7 @@ struct DeviceInfo {
   std::string driver;       // driver name and version
   std::string api_version;  // "1.3.230"
   std::string missing;      // what manylights needs and the device lacks; empty when it can be used
+  SecondQueue second_queue = SecondQueue::none;
   bool is_software() const { return type == "cpu"; }
 };
 
@@ -31,6 +37,8 @@ struct DeviceLimits {
       false;  // votes, ballots, shuffles and arithmetic across a subgroup in compute shaders
   uint32_t push_constant_bytes = 0;
   uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
+  // The same of the second queue; the main one's where there is no second. Each queue family has its own.
+  uint32_t second_timestamp_valid_bits = 0;
   double timestamp_period_ns = 0;
   bool fp64 = false;
   // Fragment shaders may number the triangles of a draw (gl_PrimitiveID), and write images.

@@ -134,16 +134,18 @@ RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex,
   Device::Impl& device = owner.impl();
   using Stage = vk::ShaderStageFlagBits;
   impl_->layout.add_module(vertex, Stage::eVertex, name);
-  impl_->layout.add_module(fragment, Stage::eFragment, name);
+  if (!fragment.empty()) impl_->layout.add_module(fragment, Stage::eFragment, name);
   impl_->layout.create(device);
   Specialization specialization(constants);
   try {
-    vk::raii::ShaderModule vertex_module = make_module(device, vertex),
-                           fragment_module = make_module(device, fragment);
-    std::array stages{
-        vk::PipelineShaderStageCreateInfo({}, Stage::eVertex, *vertex_module, "main", &specialization.info),
-        vk::PipelineShaderStageCreateInfo({}, Stage::eFragment, *fragment_module, "main",
-                                          &specialization.info)};
+    vk::raii::ShaderModule vertex_module = make_module(device, vertex), fragment_module = nullptr;
+    std::vector stages{
+        vk::PipelineShaderStageCreateInfo({}, Stage::eVertex, *vertex_module, "main", &specialization.info)};
+    if (!fragment.empty()) {
+      fragment_module = make_module(device, fragment);
+      stages.emplace_back(vk::PipelineShaderStageCreateFlags{}, Stage::eFragment, *fragment_module, "main",
+                          &specialization.info);
+    }
     vk::VertexInputBindingDescription vertex_binding(0, state.vertex_stride, vk::VertexInputRate::eVertex);
     std::vector<vk::VertexInputAttributeDescription> attributes;
     for (uint32_t i = 0; i < state.attributes.size(); ++i)

@@ -82,7 +82,10 @@ Buffer::Buffer(Device& owner, size_t bytes, MemoryKind kind, const std::string& 
                                Usage::eTransferDst | Usage::eVertexBuffer | Usage::eIndexBuffer;
   // Shaders never see readback memory, so their range does not limit it.
   if (kind == MemoryKind::readback) usage = Usage::eTransferDst;
-  impl_->buffer = vk::raii::Buffer(device.device, vk::BufferCreateInfo({}, bytes, usage));
+  const Sharing sharing(device);
+  impl_->buffer = vk::raii::Buffer(
+      device.device,
+      vk::BufferCreateInfo({}, bytes, usage, sharing.mode, sharing.count, sharing.families.data()));
   vk::MemoryRequirements needs = impl_->buffer.getMemoryRequirements();
   uint32_t type = memory_type(device, needs.memoryTypeBits, kind);
   impl_->memory = allocate(device, needs, type, name);

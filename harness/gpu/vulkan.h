@@ -2,6 +2,7 @@
 // seconds a file.
 #pragma once
 
+#include <array>
 #include <map>
 #include <mutex>
 #include <string>
@@ -20,6 +21,14 @@ namespace ml::gpu {
 struct MessageLog {
   std::mutex mutex;
   std::vector<std::string> messages;
+  // While passes are recorded whose writes are said to be apart (Commands::unordered): the layer sees whole
+  // images and buffers, and would call every two of them a hazard.
+  bool writes_apart = false;
+};
+
+struct QueueSlot {
+  vk::raii::Queue queue = nullptr;
+  uint32_t family = 0;
 };
 
 struct Device::Impl {
@@ -29,8 +38,9 @@ struct Device::Impl {
   vk::raii::DebugUtilsMessengerEXT messenger = nullptr;
   vk::raii::PhysicalDevice physical = nullptr;
   vk::raii::Device device = nullptr;
-  vk::raii::Queue queue = nullptr;
-  uint32_t queue_family = 0;
+  // `second` is `main` once more where the device has one queue.
+  QueueSlot main, second;
+  bool two_families() const { return main.family != second.family; }
   vk::PhysicalDeviceMemoryProperties memory;
   DeviceInfo info;
   DeviceLimits limits;
@@ -52,6 +62,21 @@ struct Image::Impl {
   vk::ImageAspectFlags aspect;
   // As of the last command recorded.
   vk::ImageLayout layout = vk::ImageLayout::eUndefined;
+};
+
+// Who may use a resource. Buffers belong to both families where there are two: no device is known to treat
+// such a buffer worse. Images belong to one, and are handed over (Commands::fork), because a device may give
+// up the compression of an image that two families share, and the g-buffer is to be the same wherever lists
+// are built.
+struct Sharing {
+  explicit Sharing(const Device::Impl& device) : families{device.main.family, device.second.family} {
+    if (families[0] == families[1]) return;
+    mode = vk::SharingMode::eConcurrent;
+    count = 2;
+  }
+  std::array<uint32_t, 2> families;
+  vk::SharingMode mode = vk::SharingMode::eExclusive;
+  uint32_t count = 0;
 };
 
 // What a shader wants bound: found in its SPIR-V.

@@ -51,6 +51,14 @@ SampleTable samples(const json& one, const char* group) {
   return table;
 }
 
+json overlap_json(const CaseResult& one) {
+  json samples = times(one.overlap.ms, one);
+  return {{"list_queue", one.overlap.list_queue},
+          {"overlapped", one.overlap.overlapped},
+          {"note", one.overlap.note},
+          {"ms", samples.contains("both") ? samples["both"] : json::array()}};
+}
+
 json case_json(const CaseResult& one) {
   json counters = json::object();
   for (const auto& [name, numbers] : one.counters) {
@@ -80,6 +88,7 @@ json case_json(const CaseResult& one) {
           {"accuracy", without_infinities(one.accuracy)},
           {"memory_bytes", one.memory_bytes},
           {"rejected_lights", one.rejected_lights},
+          {"overlap", overlap_json(one)},
           {"timing_suspect", one.timing_suspect},
           {"timing_note", one.timing_note},
           {"files", {{"heatmaps", one.heatmaps}, {"images", one.images}}}};
@@ -95,25 +104,30 @@ void fill_in(json& target, const json& defaults) {
   }
 }
 
-void check_rows(const json& one, const std::string& place, const char* group,
+void check_laps(const json& one, const json& laps, const std::string& path,
                 std::vector<std::string>& violations) {
   size_t frames = one["frames"].size(), repeats = one["repeats_done"].get<size_t>();
-  for (const auto& [name, laps] : one[group].items()) {
-    std::string path = fmt::format("{}.{}.{}", place, group, name);
-    if (laps.size() != repeats)
+  if (laps.size() != repeats)
+    violations.push_back(
+        fmt::format("{}: expected {} repeats, as in repeats_done, found {}", path, repeats, laps.size()));
+  for (size_t lap = 0; lap < laps.size(); ++lap)
+    if (laps[lap].size() != frames)
       violations.push_back(
-          fmt::format("{}: expected {} repeats, as in repeats_done, found {}", path, repeats, laps.size()));
-    for (size_t lap = 0; lap < laps.size(); ++lap)
-      if (laps[lap].size() != frames)
-        violations.push_back(
-            fmt::format("{}[{}]: expected {} frames, found {}", path, lap, frames, laps[lap].size()));
-  }
+          fmt::format("{}[{}]: expected {} frames, found {}", path, lap, frames, laps[lap].size()));
+}
+
+void check_rows(const json& one, const std::string& place, const char* group,
+                std::vector<std::string>& violations) {
+  for (const auto& [name, laps] : one[group].items())
+    check_laps(one, laps, fmt::format("{}.{}.{}", place, group, name), violations);
 }
 
 void check_case(const json& one, const std::string& place, bool complete,
                 std::vector<std::string>& violations) {
   check_rows(one, place, "cpu_ms", violations);
   check_rows(one, place, "gpu_ms", violations);
+  if (one.contains("overlap") && !one["overlap"]["ms"].empty())
+    check_laps(one, one["overlap"]["ms"], place + ".overlap.ms", violations);
   size_t frames = one["frames"].size();
   for (const auto& [name, numbers] : one["counters"].items())
     if (complete ? numbers.size() != frames : numbers.size() > frames)

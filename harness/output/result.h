@@ -13,6 +13,14 @@ namespace ml {
 
 inline constexpr int result_schema_version = 1;
 
+// Whether lists that the device builds were built beside other work (shading.list_queue: compute).
+struct OverlapResult {
+  std::string list_queue = "graphics";  // as configured
+  bool overlapped = false;              // by the stamps: in most samples both ran at the same time
+  std::string note;                     // why not
+  SampleTable ms;                       // "both": for how long; empty where it was not measured
+};
+
 // One case's numbers. Counters are one per frame.
 struct CaseResult {
   std::string id, algorithm, scene;
@@ -26,6 +34,7 @@ struct CaseResult {
   nlohmann::json accuracy = nlohmann::json::object();
   nlohmann::json rejected_lights = nlohmann::json::object();  // reason -> count
   std::map<std::string, uint64_t> memory_bytes;
+  OverlapResult overlap;
   bool timing_suspect = false;
   std::string timing_note;  // why it is suspect
   uint32_t repeats_done = 0;

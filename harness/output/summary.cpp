@@ -51,7 +51,7 @@ Laps shading(const CaseResult& one) {
 // List building: every pass before shading.
 Laps culling(const CaseResult& one) {
   return summed(one, [](const std::string& name) {
-    return !is_shading(name) && name != "total" && name != "transfer";
+    return !is_shading(name) && name != "total" && name != "transfer" && name != "shadow_maps";
   });
 }
 

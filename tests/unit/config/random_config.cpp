@@ -158,7 +158,12 @@ json random_config() {
     config["effects"] = {
         {one_of({"spots", "capsules", "wedges", "boxes", "probes", "specular", "alpha_mask", "forward"}),
          one_of({"auto", "off"})}};
-  if (now()) config["shading"] = {{"targets", one_of({"one", "split"})}};
+  if (now()) {
+    config["shading"] = {{"targets", one_of({"one", "split"})}};
+    if (now()) config["shading"]["shadow_maps"] = integer(0, 16);
+    if (now()) config["shading"]["shadow_map_size"] = integer(16, 8192);
+    if (now()) config["shading"]["list_queue"] = one_of({"graphics", "compute"});
+  }
   if (now()) {
     json sweep = json::object();
     if (now()) sweep["lights.count"] = values(integer(1, 4), true, [] { return light_value("count"); });
@@ -167,6 +172,7 @@ json random_config() {
     if (now()) sweep["lights.intensity"] = {1e-5, 0.7, 3};
     if (now()) sweep["effects"] = {{{"spots", "off"}}, {{"spots", "auto"}}};
     if (now()) sweep["shading.targets"] = {"one", "split"};
+    if (now()) sweep["shading.list_queue"] = {"graphics", "compute"};
     config["sweep"] = sweep;
   }
   if (now()) {

@@ -74,7 +74,7 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
     "measure": {"warmup": 0, "repeats": 5, "threads": 2, "seed": 9, "mode": "whole"},
     "outputs": {"heatmaps": [2, 0], "images": [1], "trace": false},
     "effects": {"spots": "off", "capsules": "off", "wedges": "auto", "boxes": "off", "probes": "off", "specular": "auto", "alpha_mask": "off", "forward": "off"},
-    "shading": {"targets": "split"}})");
+    "shading": {"targets": "split", "shadow_maps": 4, "shadow_map_size": 512, "list_queue": "compute"}})");
   EXPECT_EQ(config.name, "every");
   const ml::Setup& setup = config.setups.at(0);
   EXPECT_EQ(setup.scene.gltf, "/levels/a.glb");
@@ -129,6 +129,9 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
   EXPECT_FALSE(setup.effects.forward);
   EXPECT_FALSE(setup.effects.probes);
   EXPECT_EQ(setup.shading.targets, ShadingTargets::split);
+  EXPECT_EQ(setup.shading.shadow_maps, 4u);
+  EXPECT_EQ(setup.shading.shadow_map_size, 512u);
+  EXPECT_EQ(setup.shading.list_queue, ListQueue::compute);
 }
 
 TEST(ConfigReading, SharesOfTheShapesAddUpToOneAtMost) {
