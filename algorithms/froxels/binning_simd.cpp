@@ -113,9 +113,6 @@ HWY_INLINE Interval perspective_interval(VF a, VF z, VF radius, VF near) {
   VF tangent2 = hn::Sub(distance2, radius2);
   MF outside = hn::Gt(tangent2, zero);
   VF tangent = hn::Sqrt(hn::IfThenElseZero(outside, tangent2));
-  VF behind = hn::Sub(z, near);
-  VF chord2 = hn::Sub(radius2, hn::Mul(behind, behind));
-  VF chord = hn::Sqrt(hn::IfThenElseZero(hn::Gt(chord2, zero), chord2));
   VF a_tangent = hn::Mul(a, tangent), z_radius = hn::Mul(z, radius);
   VF z_tangent = hn::Mul(z, tangent), a_radius = hn::Mul(a, radius);
   VF high_a = hn::Add(a_tangent, z_radius), high_z = hn::Sub(z_tangent, a_radius);
@@ -123,6 +120,11 @@ HWY_INLINE Interval perspective_interval(VF a, VF z, VF radius, VF near) {
   VF limit = hn::Mul(near, distance2);
   MF high_seen = hn::And(outside, hn::Ge(hn::Mul(high_z, tangent), limit));
   MF low_seen = hn::And(outside, hn::Ge(hn::Mul(low_z, tangent), limit));
+  // Few balls reach to the near plane, and many vectors hold none of them.
+  if (hn::AllTrue(df, hn::And(low_seen, high_seen))) return {hn::Div(low_a, low_z), hn::Div(high_a, high_z)};
+  VF behind = hn::Sub(z, near);
+  VF chord2 = hn::Sub(radius2, hn::Mul(behind, behind));
+  VF chord = hn::Sqrt(hn::IfThenElseZero(hn::Gt(chord2, zero), chord2));
   // One division a side: numerator and denominator are chosen first.
   VF low = hn::Div(hn::IfThenElse(low_seen, low_a, hn::Sub(a, chord)), hn::IfThenElse(low_seen, low_z, near));
   VF high =
