@@ -100,14 +100,18 @@ class FinePruned final : public Algorithm {
 
 // Measured on the canyon and the citadel with 8192 to 65,536 lights, of which 29 % and 50 % were in view.
 double list_seconds(const Parameters& p, uint32_t width, uint32_t height, uint32_t lights) {
-  constexpr double in_view = 0.38, bounds = 17e-6, tile = 18e-6, tile_light = 30e-9, pruned_tile = 12e-6;
+  constexpr double in_view = 0.38, tile = 18e-6, tile_light = 30e-9, pruned_tile = 12e-6;
+  constexpr double region_tiles = 64, in_region = 0.08;  // of the lights in view
   const auto along = [](uint32_t pixels) { return (pixels + ML_PRUNED_TILE - 1) / ML_PRUNED_TILE; };
   const double tiles = static_cast<double>(along(width)) * along(height);
   // The chapter's lists need no counting of what they will hold.
   const bool packed = p.choice("caps") == "paper";
   const double visible = packed ? std::min<double>(in_view * lights, ML_PACKED_VISIBLE) : in_view * lights;
-  const double coarse = (tile + visible * tile_light) * (packed ? 0.5 : 1);
-  return visible * bounds + tiles * (coarse + (p.choice("prune") == "coarse" ? 0 : pruned_tile));
+  const bool regions = visible > static_cast<double>(p.integer("region_lights"));
+  const double candidates = regions ? in_region * visible : visible;
+  const double coarse = (tile + candidates * tile_light) * (packed ? 0.5 : 1);
+  return (regions ? tiles / region_tiles * visible * tile_light : 0) +
+         tiles * (coarse + (p.choice("prune") == "coarse" ? 0 : pruned_tile));
 }
 
 }  // namespace
