@@ -115,6 +115,37 @@ TEST_F(HardCases, FinePruned_ListsHoldWhatTheTilesPixelsLieIn) {
   EXPECT_LT(coarse.frame.prepare.coarse_lights, 0.5 * static_cast<double>(coarse.frame.prepare.in_frustum));
 }
 
+// Regions only find sooner what tiles would have found: the same lists, so the same bits.
+TEST_F(HardCases, FinePruned_RegionsChangeNothing) {
+  // 3 x 2 regions, most of them partial.
+  constexpr uint32_t width = 290, height = 150;
+  Effects effects = all_shapes();
+  effects.probes = true;
+  PrunedCheck check(yard(), width, height, effects);
+  const PrunedSettings ways[] = {
+      {}, {"paper"}, {"exact", "coarse", "subgroup", "hull", false}, {"exact", "fine", "pixel", "ball"}};
+  for_random_frames(width, height, 6, 16,
+                    [&](Random& random, const Camera& camera, std::vector<Light> lights) {
+                      for (Light& light : lights) light.probe = random.below(3) == 0;
+                      check.load(camera, lights);
+                      for (PrunedSettings way : ways) {
+                        SCOPED_TRACE(way.text());
+                        const PrunedRun flat = check.run(way);
+                        way.region_lights = 0;
+                        const PrunedRun regions = check.run(way);
+                        EXPECT_EQ(regions.image.data, flat.image.data);
+                        EXPECT_EQ(regions.counts.listed, flat.counts.listed);
+                        EXPECT_EQ(regions.frame.prepare.coarse_lights, flat.frame.prepare.coarse_lights);
+                        EXPECT_EQ(regions.frame.prepare.fine_lights, flat.frame.prepare.fine_lights);
+                        EXPECT_EQ(regions.frame.prepare.overflow_lights, flat.frame.prepare.overflow_lights);
+                        if (way.caps == "exact") {
+                          EXPECT_EQ(regions.frame.lost, 0u);
+                        }
+                      }
+                      return check.contributing();
+                    });
+}
+
 // Bounds that are wider, or of fewer dimensions, list more lights; pruning leaves the same of them.
 TEST_F(HardCases, FinePruned_WiderBoundsListMore) {
   struct Bounds {

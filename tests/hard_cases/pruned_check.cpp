@@ -46,6 +46,7 @@ ShadedAlgorithm& PrunedCheck::algorithm(const PrunedSettings& settings) {
     parameters.set(entry().parameters, "walk", settings.walk, "test");
     parameters.set(entry().parameters, "bounds", settings.bounds, "test");
     parameters.set(entry().parameters, "tile_depths", settings.tile_depths, "test");
+    parameters.set(entry().parameters, "region_lights", int64_t{settings.region_lights}, "test");
     made = std::make_unique<ShadedAlgorithm>(device(), entry(), parameters, frame_.effects());
   }
   return *made;

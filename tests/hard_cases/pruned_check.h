@@ -12,8 +12,10 @@ namespace ml::test {
 struct PrunedSettings {
   std::string caps = "exact", prune = "fine", walk = "subgroup", bounds = "hull";
   bool tile_depths = true;
+  uint32_t region_lights = 1024;
   std::string text() const {
-    return caps + " " + prune + " " + walk + " " + bounds + (tile_depths ? " by depth" : "");
+    return caps + " " + prune + " " + walk + " " + bounds + (tile_depths ? " by depth " : " ") +
+           std::to_string(region_lights);
   }
 };
 
