@@ -52,11 +52,13 @@ void DepthOrder::sort(const float* z, std::span<const PlaceRun> runs, const Dept
     Run& run = runs_[r];
     run.low.fill(0);
     run.high.fill(0);
-    for (size_t i = runs[r].first; i < runs[r].first + runs[r].count; ++i) {
-      const uint32_t k = key(z[i]);
-      keys_[i] = static_cast<uint16_t>(k);
-      ++run.low[k & 255];
-      ++run.high[k >> 8];
+    // Keys by themselves, so that the compiler makes many at once.
+    const size_t begin = runs[r].first, last = begin + runs[r].count;
+    uint16_t* keys = keys_.data();
+    for (size_t i = begin; i < last; ++i) keys[i] = static_cast<uint16_t>(key(z[i]));
+    for (size_t i = begin; i < last; ++i) {
+      ++run.low[keys[i] & 255];
+      ++run.high[keys[i] >> 8];
     }
   });
   begin_of_digits(count, &Run::low);
