@@ -34,15 +34,16 @@ TEST(Estimate, IsNearWhatPublishedRunsTook) {
 TEST(Estimate, KnowsWhatEachAlgorithmPaysForMoreLights) {
   auto extra = [](const char* algorithm) {
     auto with = [&](const char* count) {
-      return seconds(load_config("quick", {std::string("algorithms=[\"") + algorithm + "\"]",
-                                           std::string("lights.count=") + count}));
+      return seconds(load_config(
+          "quick", {std::string("algorithms=[") + algorithm + "]", std::string("lights.count=") + count}));
     };
     return with("65536") - with("8192");
   };
-  // Lists on the device for every tile, each light tested for each pixel.
-  EXPECT_GT(extra("fine_pruned"), 5 * extra("clustered"));
-  EXPECT_GT(extra("brute_force"), 20 * extra("fine_pruned"));
-  EXPECT_GT(extra("light_bvh"), 0);
+  // Lists on the device for every tile, much more without regions; each light tested for each pixel.
+  EXPECT_GT(extra(R"("fine_pruned")"), 1.1 * extra(R"("clustered")"));
+  EXPECT_GT(extra(R"({"name": "fine_pruned", "region_lights": 1048576})"), 2 * extra(R"("fine_pruned")"));
+  EXPECT_GT(extra(R"("brute_force")"), 20 * extra(R"("fine_pruned")"));
+  EXPECT_GT(extra(R"("light_bvh")"), 0);
 }
 
 TEST(Estimate, GrowsWithLapsFramesAndPixels) {
