@@ -39,6 +39,7 @@ class Sweep {
   }
 
  private:
+  using Boxes = SweepMemory::Boxes<Lane>;
   using Tag = hn::ScalableTag<Lane>;
   using V = hn::Vec<Tag>;
   using M = hn::Mask<Tag>;
@@ -71,43 +72,32 @@ class Sweep {
   // Behind the last light stand lanes that hold nothing.
   void end(std::vector<Lane>& extent, size_t count) { hn::StoreU(hn::Zero(d_), d_, &extent[count]); }
 
-  // Which of the boxes from i on hold `place`: unsigned, so that places before the first are far beyond the
-  // extent.
-  M holds(const std::vector<Lane>& first, const std::vector<Lane>& extent, size_t i, V place) const {
-    return hn::Lt(hn::Sub(place, hn::LoadU(d_, &first[i])), hn::LoadU(d_, &extent[i]));
-  }
-  void keep(M kept, const std::vector<Lane>& from, size_t i, std::vector<Lane>& to, size_t count) const {
-    hn::StoreU(hn::Compress(hn::LoadU(d_, &from[i]), kept), d_, &to[count]);
-  }
-
-  size_t sift_slice(Lane slice) {
-    const auto& from = m_.all;
-    auto& to = m_.slice;
+  // Copies some lanes of the first `in` boxes, of those that hold a place along the axis whose first place
+  // and extent are given; returns how many they are. The comparison is unsigned: places before the first are
+  // far beyond the extent.
+  template <class... Lanes>
+  size_t sift(const Boxes& from, size_t in, std::vector<Lane> Boxes::*first, std::vector<Lane> Boxes::*extent,
+              Lane place, Boxes& to, Lanes... lanes) {
+    const V all_place = hn::Set(d_, place);
     size_t count = 0;
-    for (size_t i = 0; i < taken_; i += hn::Lanes(d_)) {
-      const M kept = holds(from.slice, from.slices, i, hn::Set(d_, slice));
-      keep(kept, from.light, i, to.light, count);
-      keep(kept, from.column, i, to.column, count);
-      keep(kept, from.columns, i, to.columns, count);
-      keep(kept, from.row, i, to.row, count);
-      keep(kept, from.rows, i, to.rows, count);
+    for (size_t i = 0; i < in; i += hn::Lanes(d_)) {
+      const M kept =
+          hn::Lt(hn::Sub(all_place, hn::LoadU(d_, &(from.*first)[i])), hn::LoadU(d_, &(from.*extent)[i]));
+      (hn::StoreU(hn::Compress(hn::LoadU(d_, &(from.*lanes)[i]), kept), d_, &(to.*lanes)[count]), ...);
       count += hn::CountTrue(d_, kept);
     }
-    end(to.rows, count);
+    return count;
+  }
+  size_t sift_slice(Lane slice) {
+    const size_t count = sift(m_.all, taken_, &Boxes::slice, &Boxes::slices, slice, m_.slice, &Boxes::light,
+                              &Boxes::column, &Boxes::columns, &Boxes::row, &Boxes::rows);
+    end(m_.slice.rows, count);
     return count;
   }
   size_t sift_row(size_t in_slice, Lane row) {
-    const auto& from = m_.slice;
-    auto& to = m_.row;
-    size_t count = 0;
-    for (size_t i = 0; i < in_slice; i += hn::Lanes(d_)) {
-      const M kept = holds(from.row, from.rows, i, hn::Set(d_, row));
-      keep(kept, from.light, i, to.light, count);
-      keep(kept, from.column, i, to.column, count);
-      keep(kept, from.columns, i, to.columns, count);
-      count += hn::CountTrue(d_, kept);
-    }
-    end(to.columns, count);
+    const size_t count = sift(m_.slice, in_slice, &Boxes::row, &Boxes::rows, row, m_.row, &Boxes::light,
+                              &Boxes::column, &Boxes::columns);
+    end(m_.row.columns, count);
     return count;
   }
   // All froxels of a row, by the smallest vectors that hold its lights: those are stored fastest.

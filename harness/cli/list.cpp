@@ -22,7 +22,8 @@ const std::vector<Row>& metrics() {
       {"cpu_ms",
        "prepare() on the CPU by stage (cull, sort, bin, build, upload) and in total, [repeat][frame]"},
       {"gpu_ms",
-       "the device's time by pass (bounds, coarse, lists, shadow_maps, shade, composite, forward) and in "
+       "the device's time by pass (bounds, regions, coarse, lists, shadow_maps, shade, composite, forward) "
+       "and in "
        "total, first to last stamp of all queues, [repeat][frame]; on a software device this is CPU time"},
       {"overlap.ms", "for how long list building and shadow maps ran at the same time, [repeat][frame]"},
       {"overlap.overlapped", "whether they did in most samples; overlap.note says why not"},
