@@ -45,7 +45,7 @@ uint32_t sweep(const LightBox* boxes, const uint32_t* places, size_t count, cons
 }  // namespace simd
 
 // Whether sweeping is cheaper than `pairs` pairs of a froxel and a light: a step of either costs about the
-// same. Boxes and places as above.
+// same. boxes[0..count) in any order.
 bool sweep_is_cheaper(const LightBox* boxes, size_t count, uint64_t pairs, const FroxelGrid& grid,
                       size_t light_end);
 

@@ -117,8 +117,7 @@ AlgorithmEntry light_bvh_entry() {
       ParameterInfo::integer("branching", 8, 2, 8, "most children of a node"),
       ParameterInfo::choice("update", "refit", {"refit", "rebuild"},
                             "moving lights: refit the tree, insert those that came and one of the others in "
-                            "64 anew each frame, "
-                            "or build it afresh (surface area heuristic)"),
+                            "64 anew each frame, or build it afresh (surface area heuristic)"),
       ParameterInfo::choice("node_bytes", "24", {"24", "32"},
                             "bytes of a node: packed, or padded to two words of 16"),
   };
