@@ -19,6 +19,7 @@
 #define BIND_FORWARD 13
 #define BIND_BASE_COLOR 14
 #define BIND_SPECULAR 15
+#define BIND_QUADS 32    // added to a buffer's number: the same buffer as texels of four words, bound by its name with "Quads" behind
 #define BIND_DIFFUSE 16  // of a pass that has no algorithm in it
 
 #endif

@@ -30,7 +30,7 @@ void main() {
     uint mask = 0u;
     for (uint bit = 0u; bit < 32u; ++bit) {
       uint light = word * 32u + bit;
-      if (light < view.light_count && touches(lights[light], box)) mask |= 1u << bit;
+      if (light < view.light_count && touches(light_at(light), box)) mask |= 1u << bit;
     }
     masks[first_word + word] = mask;
   }

@@ -26,7 +26,7 @@ void take(SurfacePoint point, bool lit, uint base, inout uint mask, uint next, i
   uint light = base + uint(findLSB(mask));
   mask &= mask - 1u;
   LightSample from;
-  if (!lit || !light_sample(point, lights[light], from)) return;
+  if (!lit || !light_sample(point, light_at(light), from)) return;
 #ifdef FILL
   indices[next + count] = light;
 #endif
@@ -59,7 +59,7 @@ void main() {
       uint kept = 0u;
       for (uint mask = masks[first_word + chunk + word]; mask != 0u; mask &= mask - 1u) {
         uint bit = uint(findLSB(mask));
-        if (touches(lights[(chunk + word) * 32u + bit], box)) kept |= 1u << bit;
+        if (touches(light_at((chunk + word) * 32u + bit), box)) kept |= 1u << bit;
       }
       narrowed[word] = kept;
       if (kept != 0u) atomicOr(occupied[word / 32u], 1u << (word % 32u));

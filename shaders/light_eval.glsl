@@ -6,6 +6,7 @@
 #ifndef ML_LIGHT_EVAL_GLSL
 #define ML_LIGHT_EVAL_GLSL
 #include "shaders/numbers.glsl"
+#include "shaders/quads.glsl"
 #include "shaders/shared/light.h"
 #include "shaders/surface.glsl"
 
@@ -23,6 +24,26 @@ layout(constant_id = 10) const bool EFFECT_PROBES = false;
 
 layout(scalar, binding = BIND_LIGHTS) readonly buffer Lights { LightCore lights[]; };
 layout(scalar, binding = BIND_EXTRAS) readonly buffer Extras { LightExtra extras[]; };
+QUADS(LightsQuads, BIND_LIGHTS);
+QUADS(ExtrasQuads, BIND_EXTRAS);
+
+LightCore light_from_quads(uvec4 a, uvec4 b) {
+  return LightCore(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), b.w);
+}
+
+LightCore light_at(uint light) {
+  if (!TEXEL_FETCH) return lights[light];
+  const int quad = int(2u * light);
+  return light_from_quads(texelFetch(LightsQuads, quad), texelFetch(LightsQuads, quad + 1));
+}
+
+LightExtra extra_at(uint light) {
+  if (!TEXEL_FETCH) return extras[light];
+  const int quad = int(3u * light);
+  const vec4 a = uintBitsToFloat(texelFetch(ExtrasQuads, quad)), b = uintBitsToFloat(texelFetch(ExtrasQuads, quad + 1)),
+             c = uintBitsToFloat(texelFetch(ExtrasQuads, quad + 2));
+  return LightExtra(a.xyz, a.w, b.xyz, b.w, c.x, c.y, c.z, c.w);
+}
 
 const float min_distance_squared = 1e-4;     // m^2: a light is at least a ball of 1 cm
 const float on_point_distance_squared = 1e-12;  // m^2: nearer than this the light has no direction, and shines along the normal
@@ -45,7 +66,7 @@ bool is_probe(LightCore light) { return EFFECT_PROBES && (light.id_shape & ML_LI
 float light_bound(LightCore light) {
   if (is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE) || is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE) ||
       is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX))
-    return extras[light.id_shape & ML_LIGHT_ID_MASK].bound_radius;
+    return extra_at(light.id_shape & ML_LIGHT_ID_MASK).bound_radius;
   return light.radius;
 }
 
@@ -93,12 +114,12 @@ bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
   precise REAL dx = REAL(light.position.x) - REAL(point.position.x);
   precise REAL dy = REAL(light.position.y) - REAL(point.position.y);
   precise REAL dz = REAL(light.position.z) - REAL(point.position.z);
-  if (wedge || is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE)) to_segment(extras[id], dx, dy, dz);
+  if (wedge || is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE)) to_segment(extra_at(id), dx, dy, dz);
   precise REAL distance_squared = dx * dx + dy * dy + dz * dz;
   precise REAL window;
   if (is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) {
     REAL product;
-    if (!in_box(extras[id], dx, dy, dz, product)) return false;
+    if (!in_box(extra_at(id), dx, dy, dz, product)) return false;
     window = product;
   } else {
     precise REAL radius_squared = REAL(light.radius) * REAL(light.radius);
@@ -120,7 +141,7 @@ bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
   }
   result.strength = window * window / (probe ? REAL(1) : max(distance_squared, REAL(min_distance_squared)));
   if (wedge || is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT)) {
-    LightExtra extra = extras[id];
+    LightExtra extra = extra_at(id);
     // 1 - cos as half the square of the chord between the two directions. The rounding of their lengths is along the chord's normal and
     // falls away; a difference of cosines would leave few digits where a narrow cone's edge is all that lights a pixel.
     precise REAL chord_x = result.direction.x + REAL(extra.direction.x);

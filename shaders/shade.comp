@@ -3,7 +3,7 @@
 // The cursor provides:  struct LightCursor;  LightCursor light_begin(SurfacePoint);
 //                       bool light_next(inout LightCursor, out uint light, out float weight);
 // (`light` may be no_light: nothing found this time, ask again) and may define
-//   CURSOR_LIGHT(light)  when light data stands elsewhere than in lights[];
+//   CURSOR_LIGHT(light)  when light data does not come from light_at();
 //   CURSOR_MORE(cursor)  false when light_next() will find nothing, where that is known beforehand;
 //   CURSOR_RUNS          the pixels of a subgroup can walk the lights of a cell together (shade_together.glsl), by
 //                        uint light_cell(SurfacePoint), LightCursor cell_begin(uint cell, float depth, bool counted),
@@ -26,10 +26,8 @@
 // Which pixels are lit forward (gbuffer.frag).
 layout(binding = BIND_FORWARD) uniform usampler2D Forward;
 #ifndef FORWARD
-// Pixels are walked in blocks of 8x8; with a list of blocks only those (the tiles of one class, the sampled reference), else the whole
-// picture.
+// Pixels are walked in blocks of 8x8, those of a list: where something is seen, the tiles of one class, the sampled reference.
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 2) const bool BLOCK_LIST = false;
 // The pixels of a subgroup walk lights together: needs votes, shuffles and arithmetic across the subgroup, and a cursor that can.
 layout(constant_id = 7) const bool WALK_TOGETHER = false;
 layout(scalar, binding = BIND_BLOCKS) readonly buffer Blocks { uvec2 blocks[]; };
@@ -69,7 +67,7 @@ const uint no_light = 0xffffffffu;
 #define CURSOR_MORE(cursor) true
 #endif
 #ifndef CURSOR_LIGHT
-#define CURSOR_LIGHT(light) lights[light]
+#define CURSOR_LIGHT(light) light_at(light)
 #endif
 
 // Looks at one light; true when it contributes. `data`: the light without its intensity, which few tests need.
@@ -160,9 +158,14 @@ bool surface_to_light(uvec2 pixel, out SurfacePoint point) {
   return surface_load(pixel, point) && (!EFFECT_FORWARD || texelFetch(Forward, ivec2(pixel), 0).x == 0u);
 }
 
+// Eight neighbouring threads are 4x2 pixels, 16 are 4x4, 32 are 8x4: nearly square, so that the pixels of a subgroup have much in common,
+// whatever its size.
+uvec2 place_in_block(uint thread) {
+  return uvec2((thread & 3u) | (thread >> 2 & 4u), (thread >> 2 & 3u) | (thread >> 3 & 4u));
+}
+
 void main() {
-  uvec2 block = BLOCK_LIST ? blocks[first_block + gl_WorkGroupID.x] : gl_WorkGroupID.xy;
-  uvec2 pixel = block * 8u + gl_LocalInvocationID.xy;
+  const uvec2 pixel = blocks[first_block + gl_WorkGroupID.x] * 8u + place_in_block(gl_LocalInvocationIndex);
   const bool inside = all(lessThan(pixel, view.resolution));
   VEC3 sum = VEC3(0);
   SurfacePoint point;

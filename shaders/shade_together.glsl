@@ -1,6 +1,7 @@
 // The shading loop for subgroups whose pixels walk lights together (WALK_TOGETHER). Included by shade.comp for cursors with CURSOR_RUNS.
 #ifndef ML_SHADE_TOGETHER_GLSL
 #define ML_SHADE_TOGETHER_GLSL
+#include "shaders/subgroup_exchange.glsl"
 
 LightCore light_of_lane(LightCore own, uint lane) {
   LightCore light;
@@ -31,7 +32,7 @@ void add_lane(SurfacePoint point, LightCore own, inout uint contributing, inout 
 // the order of the run, as everywhere. `count` is not 0. No lane leaves before all are done, for none may be missing in a shuffle. Several lights a turn, and
 // loops that end where they have run: turns are short on some drivers (light_eval.glsl, LONG_LISTS).
 void shade_run(SurfacePoint point, uint first, uint count, bool wanted, inout VEC3 sum) {
-  const uint lanes = min(gl_SubgroupSize, 32u);
+  const uint lanes = min(subgroup_lanes(), 32u);
   uint begin = 0u;
   do {
     const uint batch = min(count - begin, lanes);
@@ -50,7 +51,7 @@ void shade_run(SurfacePoint point, uint first, uint count, bool wanted, inout VE
       }
       i += LONG_LISTS ? 8u : 4u;
     } while (i < batch);
-    if (subgroupAny(contributing != 0u)) {
+    if (any_of_all(contributing != 0u)) {
       do {
         add_lane(point, own, contributing, sum);
         if (LONG_LISTS) {
@@ -62,7 +63,7 @@ void shade_run(SurfacePoint point, uint first, uint count, bool wanted, inout VE
           add_lane(point, own, contributing, sum);
           add_lane(point, own, contributing, sum);
         }
-      } while (subgroupAny(contributing != 0u));
+      } while (any_of_all(contributing != 0u));
     }
     begin += lanes;
   } while (begin < count);
@@ -73,7 +74,7 @@ void shade_run(SurfacePoint point, uint first, uint count, bool wanted, inout VE
 void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
   const uint none = 0xffffffffu;
   uint left = lit ? light_cell(point) : none;
-  uint cell = subgroupMin(left);
+  uint cell = lowest_of_all(left);
   if (cell == none) return;
   do {
     const bool here = left == cell;
@@ -91,13 +92,13 @@ void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
         } while (runs != 0u);
       }
     } while (more);
-    cell = subgroupMin(left);
+    cell = lowest_of_all(left);
   } while (cell != none);
 }
 
 bool in_one_cell(SurfacePoint point, bool lit) {
   const uint cell = lit ? light_cell(point) : 0xffffffffu;
-  return subgroupAll(!lit || cell == subgroupMin(cell));
+  return subgroupAll(!lit || cell == lowest_of_all(cell));
 }
 
 #endif

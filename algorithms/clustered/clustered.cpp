@@ -14,12 +14,6 @@ namespace {
 
 enum Slot : uint32_t { grid_slot, offsets_slot, indices_slot, duplicates_slot };
 
-// As the light cursor reads it.
-struct GridHeader {
-  gpu_data::SliceMapping mapping;
-  uint32_t tile, columns, tiles;
-};
-
 template <typename Element>
 void copy(std::span<const Element> from, std::span<std::byte> to) {
   if (!from.empty()) std::memcpy(to.data(), from.data(), from.size_bytes());
@@ -39,8 +33,7 @@ class Clustered final : public Algorithm {
     else
       lists_.build(frame, settings_, memory, indices_slot, spans);
     auto span = spans.span("upload");
-    const GridHeader header{lists_.grid().mapping, settings_.tile, lists_.grid().columns,
-                            lists_.grid().tiles()};
+    const gpu_data::FroxelGridData header = lists_.grid().data();
     copy(std::span(&header, 1), memory.map(grid_slot, sizeof header));
     copy(lists_.offsets(), memory.map(offsets_slot, lists_.offsets().size_bytes()));
     std::span<const uint32_t> indices = lists_.entries();

@@ -1,23 +1,17 @@
 // The list of the pixel's froxel.
-#include "shaders/shared/slices.h"
+#include "algorithms/froxels/froxel_cell.glsl"
 
 layout(constant_id = 16) const bool DUPLICATED = false;
-layout(scalar, binding = 16) readonly buffer Grid {
-  SliceMapping slice_mapping;
-  uint tile_size, tile_columns, tile_count;
-};
 layout(scalar, binding = 17) readonly buffer Offsets { uint froxel_offsets[]; };
 layout(scalar, binding = 18) readonly buffer Indices { uint froxel_indices[]; };
 layout(scalar, binding = 19) readonly buffer Duplicates { LightCore froxel_lights[]; };
+QUADS(DuplicatesQuads, 19);
 
 struct LightCursor {
   uint next, end;
 };
 
-uint light_cell(SurfacePoint point) {
-  uvec2 tile = point.pixel / tile_size;
-  return slice_of_depth(point.depth, slice_mapping) * tile_count + tile.y * tile_columns + tile.x;
-}
+uint light_cell(SurfacePoint point) { return froxel_of_point(point); }
 
 LightCursor cell_begin(uint froxel, float depth, bool counted) {
   LightCursor cursor = LightCursor(froxel_offsets[froxel], froxel_offsets[froxel + 1u]);
@@ -27,7 +21,7 @@ LightCursor cell_begin(uint froxel, float depth, bool counted) {
 
 LightCursor light_begin(SurfacePoint point) { return cell_begin(light_cell(point), point.depth, true); }
 
-// `light` is an index into lights[], or with duplicated data the place in the list itself.
+// `light` is the light's index, or with duplicated data the place in the list itself.
 bool light_next(inout LightCursor cursor, out uint light, out float weight) {
   weight = 1.0;
   if (cursor.next >= cursor.end) return false;
@@ -52,8 +46,10 @@ uint run_light(uint place) { return DUPLICATED ? place : froxel_indices[place]; 
 #define CURSOR_RUNS
 
 LightCore cursor_light(uint light) {
-  if (DUPLICATED) return froxel_lights[light];
-  return lights[light];
+  if (!DUPLICATED) return light_at(light);
+  if (!TEXEL_FETCH) return froxel_lights[light];
+  const int quad = int(2u * light);
+  return light_from_quads(texelFetch(DuplicatesQuads, quad), texelFetch(DuplicatesQuads, quad + 1));
 }
 #define CURSOR_LIGHT(light) cursor_light(light)
 #define CURSOR_MORE(cursor) ((cursor).next < (cursor).end)

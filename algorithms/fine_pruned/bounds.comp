@@ -126,7 +126,7 @@ WindowBounds ball_bounds(LightCore light) {
 void main() {
   const uint place = gl_GlobalInvocationID.x;
   if (place >= visible.count) return;
-  const LightCore light = lights[visible_lights[place]];
+  const LightCore light = light_at(visible_lights[place]);
   const WindowBounds ball = ball_bounds(light);
   vec3 low = ball.low, high = ball.high;
   // The box around an omni light has the bounds of its ball inside its own: all of the hull would be cut off.

@@ -3,14 +3,23 @@
 #ifndef ML_FINE_PRUNED_LIGHT_BATCHES_GLSL
 #define ML_FINE_PRUNED_LIGHT_BATCHES_GLSL
 #include "pruned_lists.h"
+#include "shaders/quads.glsl"
 
 layout(constant_id = 18) const bool TILE_DEPTHS = true;  // false: tiles have no bounds in depth
 
 layout(scalar, binding = 16) readonly buffer Visible {
-  VisibleHeader visible;
+  VisibleHeader visible_data;
   uint visible_lights[];
 };
+VisibleHeader visible = visible_data;  // read before all branches, as the view is (shaders/surface.glsl)
 layout(scalar, binding = 17) readonly buffer Bounds { ScreenBounds bounds[]; };
+QUADS(BoundsQuads, 17);
+
+ScreenBounds bounds_of(uint light) {
+  if (!TEXEL_FETCH) return bounds[light];
+  const uvec4 words = texelFetch(BoundsQuads, int(light));
+  return ScreenBounds(words.x, words.y, uintBitsToFloat(words.z), uintBitsToFloat(words.w));
+}
 
 const uint rounds = 8u;  // lights that a thread tests in one batch
 const uint batch = rounds * ML_PRUNED_GROUP, batch_words = batch / 32u;
@@ -44,7 +53,7 @@ void test_batch(uint first, uint count, uint field, ScreenBounds place) {
   const uint thread = gl_LocalInvocationIndex;
   for (uint round = 0u; round < rounds; ++round) {
     const uint at = first + round * ML_PRUNED_GROUP + thread;
-    if (at < count && overlaps(bounds[candidate(at)], place)) atomicOr(passed[field + round * 2u + (thread >> 5)], 1u << (thread & 31u));
+    if (at < count && overlaps(bounds_of(candidate(at)), place)) atomicOr(passed[field + round * 2u + (thread >> 5)], 1u << (thread & 31u));
   }
 }
 

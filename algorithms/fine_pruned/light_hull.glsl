@@ -56,16 +56,16 @@ LightHull light_hull(LightCore light, bool narrowed) {
   hull.base = hull.top = vec2(light.radius);
   const bool wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
   if (wedge || is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT)) {
-    cone_hull(light, extras[id], wedge, narrowed, hull);
+    cone_hull(light, extra_at(id), wedge, narrowed, hull);
   } else if (is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE)) {
-    hull.w = to_view(extras[id].side);
+    hull.w = to_view(extra_at(id).side);
     hull.u = any_across(hull.w);
-    hull.high += extras[id].half_length;
+    hull.high += extra_at(id).half_length;
     hull.low = -hull.high;
   } else if (is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) {
-    const vec3 half_extents = box_half_extents(extras[id]);
-    hull.w = to_view(extras[id].direction);
-    hull.u = to_view(extras[id].side);
+    const vec3 half_extents = box_half_extents(extra_at(id));
+    hull.w = to_view(extra_at(id).direction);
+    hull.u = to_view(extra_at(id).side);
     hull.high = half_extents.z;
     hull.low = -hull.high;
     hull.base = hull.top = half_extents.xy;

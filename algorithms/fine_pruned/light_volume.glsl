@@ -26,7 +26,7 @@ FourWays ways_to(FourPoints points, LightCore light, bool segment) {
   precise vec4 y = vec4(light.position.y) - points.y;
   precise vec4 z = vec4(light.position.z) - points.z;
   if (segment) {
-    const LightExtra extra = extras[light.id_shape & ML_LIGHT_ID_MASK];
+    const LightExtra extra = extra_at(light.id_shape & ML_LIGHT_ID_MASK);
     const float sx = extra.side.x, sy = extra.side.y, sz = extra.side.z, limit = extra.half_length;
     precise vec4 along = clamp(-(x * sx + y * sy + z * sz), vec4(-limit), vec4(limit));
     precise vec4 nx = x + along * sx;
@@ -67,7 +67,7 @@ bool in_cone(FourPoints points, LightCore light) {
   const FourWays ways = ways_to(points, light, wedge);
   const bvec4 near = both(within_radius(points, ways, light), faced(points, ways, light));
   if (!wedge && !is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT) || !any(near)) return any(near);
-  const LightExtra extra = extras[light.id_shape & ML_LIGHT_ID_MASK];
+  const LightExtra extra = extra_at(light.id_shape & ML_LIGHT_ID_MASK);
   const vec4 along = -(ways.x * extra.direction.x + ways.y * extra.direction.y + ways.z * extra.direction.z);
   // A point on the light has no direction: it counts.
   const vec4 edge = (extra.cos_outer - cone_margin) * sqrt(ways.squared);
@@ -87,7 +87,7 @@ bool in_box_volume(FourPoints points, LightCore light) {
   const FourWays ways = ways_to(points, light, false);
   const bvec4 facing = faced(points, ways, light);
   if (!is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) return any(both(within_radius(points, ways, light), facing));
-  const LightExtra extra = extras[light.id_shape & ML_LIGHT_ID_MASK];
+  const LightExtra extra = extra_at(light.id_shape & ML_LIGHT_ID_MASK);
   const vec3 half_extents = box_half_extents(extra);
   const bvec4 inside = both(both(between(ways, extra.side, half_extents.x), between(ways, box_up(extra), half_extents.y)),
                             between(ways, extra.direction, half_extents.z));

@@ -56,7 +56,7 @@ uint probes_from(uint begin, uint count) { return EFFECT_PROBES ? lights_before(
 
 // One loop for each type of volume. Several lights a turn where there are many: some drivers are short of turns (shaders/light_eval.glsl).
 #define PRUNE(volume, end, at)                                                               \
-  if (at < end && volume(points, lights[visible_lights[coarse[begin + at]]])) {              \
+  if (at < end && volume(points, light_at(visible_lights[coarse[begin + at]]))) {              \
     if (at < 32u)                                                                            \
       mask.x |= 1u << at;                                                                    \
     else                                                                                     \

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "shaders/shared/slices.h"
+#include "algorithms/froxels/grid_data.h"
 #include "shaders/shared/view.h"
 
 namespace ml {
@@ -23,6 +23,10 @@ struct FroxelGrid {
   // The number of a froxel.
   uint32_t cell(uint32_t column, uint32_t row, uint32_t slice) const {
     return (slice * rows + row) * columns + column;
+  }
+
+  gpu_data::FroxelGridData data() const {
+    return {mapping, 1.0f / static_cast<float>(tile), columns, tiles()};
   }
 
   // `tile`, `slices` >= 1; `zmin` > 0; `zmax` 0 takes the view's far. A zmax at or below zmin is raised to

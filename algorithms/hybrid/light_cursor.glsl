@@ -14,10 +14,7 @@ const uint shared_capacity = 512u;
 shared TreeNode shared_nodes[SHARED_TREE ? shared_capacity : 1u];
 #endif
 
-uint light_cell(SurfacePoint point) {
-  uvec2 tile = point.pixel / tile_size;
-  return slice_of_depth(point.depth, slice_mapping) * tile_count + tile.y * tile_columns + tile.x;
-}
+uint light_cell(SurfacePoint point) { return froxel_of_point(point); }
 
 LightCursor light_begin(SurfacePoint point) { return cell_begin(light_cell(point), point.depth, true); }
 
@@ -50,7 +47,7 @@ uint cursor_case(inout LightCursor cursor) {
   if (!HAS_TREES) return 0u;
   const uint nodes = cursor.end - cursor.node;
   if (LIST_CASE && subgroupAll(nodes <= 1u)) {
-    if (nodes == 1u) tree_step(cursor, tree_nodes[cursor.node]);
+    if (nodes == 1u) tree_step(cursor, tree_node(cursor.node));
     return 0u;
   }
   if (SHARED_TREE) {
@@ -59,7 +56,7 @@ uint cursor_case(inout LightCursor cursor) {
       // Pixels of the sky have no cursor: the lanes that are left share the copying.
       const uvec4 lanes = subgroupBallot(true);
       const uint base = gl_SubgroupID * share, step = subgroupBallotBitCount(lanes);
-      for (uint i = subgroupBallotExclusiveBitCount(lanes); i < nodes; i += step) shared_nodes[base + i] = tree_nodes[cursor.node + i];
+      for (uint i = subgroupBallotExclusiveBitCount(lanes); i < nodes; i += step) shared_nodes[base + i] = tree_node(cursor.node + i);
       subgroupMemoryBarrierShared();
       subgroupBarrier();
       cursor.node = base;

@@ -2,10 +2,7 @@
 layout(constant_id = 16) const bool HAS_TREES = true;
 #include "algorithms/trees/tree_walk.glsl"
 
-uint light_cell(SurfacePoint point) {
-  uvec2 tile = point.pixel / tile_size;
-  return tile.y * tile_columns + tile.x;
-}
+uint light_cell(SurfacePoint point) { return tile_of_point(point); }
 
 LightCursor light_begin(SurfacePoint point) { return cell_begin(light_cell(point), point.depth, true); }
 

@@ -13,12 +13,6 @@ namespace {
 
 enum Slot : uint32_t { grid_slot, cells_slot, nodes_slot, indices_slot };
 
-// As the walk reads it.
-struct GridHeader {
-  gpu_data::SliceMapping mapping;
-  uint32_t tile, columns, tiles;
-};
-
 }  // namespace
 
 TreePrepare::TreePrepare(const std::string& owner, const FroxelSettings& froxels, const ForestSettings& trees)
@@ -42,8 +36,7 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
                     owner_, node_bytes, memory.limit()));
 
   auto span = spans.span("upload");
-  const FroxelGrid& grid = lists_.grid();
-  const GridHeader header{grid.mapping, grid.tile, grid.columns, grid.tiles()};
+  const gpu_data::FroxelGridData header = lists_.grid().data();
   std::memcpy(memory.map(grid_slot, sizeof header).data(), &header, sizeof header);
   const auto cells = forest_.cells();
   std::memcpy(memory.map(cells_slot, cells.size_bytes()).data(), cells.data(), cells.size_bytes());

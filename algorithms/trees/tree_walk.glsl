@@ -4,15 +4,26 @@
 #ifndef ML_TREE_WALK_GLSL
 #define ML_TREE_WALK_GLSL
 #include "algorithms/trees/tree_node.h"
-#include "shaders/shared/slices.h"
+#include "algorithms/froxels/froxel_cell.glsl"
+#include "shaders/subgroup_exchange.glsl"
 
-layout(scalar, binding = 16) readonly buffer Grid {
-  SliceMapping slice_mapping;
-  uint tile_size, tile_columns, tile_count;
-};
 layout(scalar, binding = 17) readonly buffer TreeCells { TreeCell tree_cells[]; };
 layout(scalar, binding = 18) readonly buffer TreeNodes { TreeNode tree_nodes[]; };
+QUADS(TreeCellsQuads, 17);
+QUADS(TreeNodesQuads, 18);
 layout(scalar, binding = 19) readonly buffer Indices { uint tree_lights[]; };
+
+TreeCell tree_cell(uint cell) {
+  if (!TEXEL_FETCH) return tree_cells[cell];
+  const uvec4 two = texelFetch(TreeCellsQuads, int(cell >> 1));
+  return (cell & 1u) != 0u ? TreeCell(two.z, two.w) : TreeCell(two.x, two.y);
+}
+
+TreeNode tree_node(uint place) {
+  if (!TEXEL_FETCH) return tree_nodes[place];
+  const uvec4 words = texelFetch(TreeNodesQuads, int(place));
+  return TreeNode(uintBitsToFloat(words.x), uintBitsToFloat(words.y), words.z, words.w);
+}
 
 const float any_depth = 3.4e38;  // m, more than any
 
@@ -27,7 +38,7 @@ struct LightCursor {
 
 // `counted`: the pixel itself walks the tree, and does not only help.
 LightCursor cell_begin(uint cell, float depth, bool counted) {
-  const TreeCell place = tree_cells[cell];
+  const TreeCell place = tree_cell(cell);
   const bool list = !HAS_TREES || (place.end & ML_TREE_CELL_LIST) != 0u;
   // A list is at once what a tree's walk finds in a leaf.
   const uint node = list ? 0u : place.first, end = list ? 0u : place.end;
@@ -38,9 +49,9 @@ LightCursor cell_begin(uint cell, float depth, bool counted) {
     // Nodes that stand side by side: one tree, or the leaves of one list.
     uint listed = last - next;
     bool tree = false;
-    for (uint n = node; n < end; n += tree_skip(tree_nodes[n])) {
-      tree = !tree_is_leaf(tree_nodes[n]);
-      listed += tree ? tree_nodes[n].first_or_below : tree_leaf_lights(tree_nodes[n]);
+    for (uint n = node; n < end; n += tree_skip(tree_node(n))) {
+      tree = !tree_is_leaf(tree_node(n));
+      listed += tree ? tree_node(n).first_or_below : tree_leaf_lights(tree_node(n));
     }
     COUNT_LISTED(listed);
     COUNT_TRAVERSAL(tree ? 1u : 0u);
@@ -67,7 +78,7 @@ bool tree_next(inout LightCursor cursor, out uint light, out float weight) {
   light = no_light;
   if (cursor.next == cursor.last) {
     if (!HAS_TREES || cursor.node >= cursor.end) return false;
-    tree_step(cursor, tree_nodes[cursor.node]);
+    tree_step(cursor, tree_node(cursor.node));
     if (cursor.next == cursor.last) return true;
   }
   light = tree_lights[cursor.next++];
@@ -78,9 +89,9 @@ bool tree_next(inout LightCursor cursor, out uint light, out float weight) {
 bool some_depth_in(float low, float high, float depth, bool here) {
   bool some = false;
   // A few exchanges are cheaper than what small subgroups pay for a sum over all lanes.
-  if (gl_SubgroupSize <= 8u) {
+  if (small_subgroup) {
     const float asked = here ? depth : -any_depth;
-    for (uint lane = 0u; lane < gl_SubgroupSize; ++lane) {
+    for (uint lane = 0u; lane < SUBGROUP_LANES; ++lane) {
       const float other = subgroupShuffle(asked, lane);
       some = some || (low <= other && other <= high);
     }
@@ -97,14 +108,14 @@ bool some_depth_in(float low, float high, float depth, bool here) {
 uint light_next_runs(inout LightCursor cursor, bool here, out bool more) {
   more = false;
   if (!HAS_TREES) return cursor.run_count != 0u ? 1u : 0u;
-  const uint lanes = min(gl_SubgroupSize, 32u), lane = gl_SubgroupInvocationID;
+  const uint lanes = min(subgroup_lanes(), 32u), lane = gl_SubgroupInvocationID;
   uint runs = cursor.next != cursor.last ? 1u : 0u;
   do {
     const uint own = cursor.node + lane, behind = cursor.node + lanes;
     const bool exists = lane < lanes && own < cursor.end;
     if (here) COUNT_NODES(min(cursor.end - cursor.node, lanes));
     TreeNode node = TreeNode(any_depth, -any_depth, 0u, 0u);
-    if (exists) node = tree_nodes[own];
+    if (exists) node = tree_node(own);
     const bool hit = some_depth_in(node.low, node.high, cursor.depth, here);
     const bool leaf = exists && tree_is_leaf(node);
     if (exists) {
@@ -113,10 +124,10 @@ uint light_next_runs(inout LightCursor cursor, bool here, out bool more) {
       cursor.run_low = node.low;
       cursor.run_high = node.high;
     }
-    runs |= subgroupBallot(hit && leaf).x;
+    runs |= lanes_where(hit && leaf);
     // The first missed node whose nodes go on behind these is above all others of the kind.
     const uint next = own + tree_skip(node);
-    const uint jumps = subgroupBallot(exists && !hit && next > behind).x;
+    const uint jumps = lanes_where(exists && !hit && next > behind);
     cursor.node = jumps != 0u ? subgroupShuffle(next, uint(findLSB(jumps))) : behind;
   } while (runs == 0u && cursor.node < cursor.end);
   more = cursor.node < cursor.end;

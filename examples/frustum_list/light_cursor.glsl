@@ -1,5 +1,6 @@
 // Every pixel walks the same list.
-layout(scalar, binding = 16) readonly buffer List { uint list_length; uint list_lights[]; };
+layout(scalar, binding = 16) readonly buffer List { uint list_length_data; uint list_lights[]; };
+uint list_length = list_length_data;  // read once, before all branches
 
 struct LightCursor {
   uint next;

@@ -116,7 +116,7 @@ std::vector<std::filesystem::path> render_frame(const Config& config, const Rend
   frame.load(input);
   if (entry.info.needs_contributing_lists) frame.find_contributing(input, true);
   Spans spans;
-  algorithm.prepare(input, spans);
+  algorithm.prepare(input, spans, frame.seen_blocks().places());
   algorithm.count(frame, input);
 
   std::vector<std::filesystem::path> files{options.out};

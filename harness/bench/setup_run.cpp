@@ -17,7 +17,8 @@ const Setup& setup_of(const Config& config, const std::vector<Case>& cases) {
   return config.setups[cases.front().setup];
 }
 
-CaseResult empty_result(const Config& config, const Case& item, Workload& workload) {
+CaseResult empty_result(const gpu::Device& device, const Config& config, const Case& item,
+                        Workload& workload) {
   const Setup& setup = config.setups[item.setup];
   const AlgorithmSpec& algorithm = setup.algorithms[item.algorithm];
   CaseResult result;
@@ -28,7 +29,7 @@ CaseResult empty_result(const Config& config, const Case& item, Workload& worklo
   result.lights = static_cast<uint32_t>(workload.lights().base().size());
   result.width = setup.width;
   result.height = setup.height;
-  result.effects = workload.effects().names();
+  result.effects = workload.effects().names(device);
   for (uint32_t i = 0; i < setup.camera.frames; ++i) result.frames.push_back(i);
   result.cpu_ms = result.gpu_ms = SampleTable(config.measure.repeats, setup.camera.frames);
   for (const auto& [reason, count] : workload.lights().rejected()) result.rejected_lights[reason] = count;
@@ -66,7 +67,7 @@ SetupRun::SetupRun(gpu::Device& device, const Config& config, const std::vector<
     algorithms_.push_back(
         std::make_unique<ShadedAlgorithm>(device_, entry, spec.parameters, workload_.effects()));
     wants_lists_ |= entry.info.needs_contributing_lists;
-    results_.push_back(empty_result(config_, item, workload_));
+    results_.push_back(empty_result(device_, config_, item, workload_));
     results_.back().overlap = expected_overlap(device_, setup_of(config_, cases_).shading, entry.info,
                                                config_.measure, workload_.frames().frames());
   }
@@ -100,7 +101,7 @@ void SetupRun::counting_lap(const Step& done) {
     for (size_t i = 0; i < cases_.size(); ++i) {
       auto span = log_.span("counting");
       spans_.clear();
-      algorithms_[i]->prepare(*input_, spans_);
+      algorithms_[i]->prepare(*input_, spans_, frame_.seen_blocks().places());
       algorithms_[i]->count(frame_, *input_);
       // Drivers finish compiling a program at its first dispatch; that must not be in the first sample,
       // warm-up laps or not.
@@ -131,7 +132,7 @@ void SetupRun::timed_lap(uint32_t lap, const Step& done) {
       ShadedAlgorithm& algorithm = *algorithms_[i];
       spans_.clear();
       auto begin = Clock::now();
-      algorithm.prepare(*input_, spans_);
+      algorithm.prepare(*input_, spans_, frame_.seen_blocks().places());
       auto prepared = Clock::now();
       gpu::SubmissionTimes times = algorithm.shade(frame_, *input_, timing);
       double prepare_ms = milliseconds_between(begin, prepared),
@@ -189,7 +190,7 @@ void SetupRun::pictures(const std::filesystem::path& folder, const Step& done) {
     for (size_t i = 0; i < cases_.size(); ++i) {
       stop_if_interrupted();
       spans_.clear();
-      algorithms_[i]->prepare(*input_, spans_);
+      algorithms_[i]->prepare(*input_, spans_, frame_.seen_blocks().places());
       algorithms_[i]->count(frame_, *input_);
       const std::string stem = fmt::format("{}.frame{}", cases_[i].id, index);
       if (has(config_.outputs.images, index)) {

@@ -210,7 +210,7 @@ void SetupProof::prove_references(const FrameInput& input, uint32_t index) {
   blocks_ = sampled_blocks(setup_.width, setup_.height,
                            std::max<uint64_t>(options_.brute_force_tests / (64 * lights), 16),
                            hash_u32(config_.measure.seed, index));
-  brute_->prepare(input, spans);
+  brute_->prepare(input, spans, frame_.seen_blocks().places());
   brute_->count_blocks(frame_, input, blocks_);
   brute_image_ = gathered(result_picture(frame_), blocks_);
   PixelCounts counts = read_counts(frame_);
@@ -224,7 +224,7 @@ void SetupProof::prove_references(const FrameInput& input, uint32_t index) {
                           counts.hash[pixel] != frame_.contributing().hash[pixel];
     }
   if (brute64_) {
-    brute64_->prepare(input, spans);
+    brute64_->prepare(input, spans, frame_.seen_blocks().places());
     brute64_->count_blocks(frame_, input, blocks_);
     ImageDifference difference =
         compare_images(brute_image_, gathered(result_picture(frame_), blocks_), floor_);
@@ -260,7 +260,7 @@ void SetupProof::prove_case(size_t i, const FrameInput& input) {
   Tally& tally = tallies_[i];
   ShadedAlgorithm& algorithm = *algorithms_[i];
   Spans spans;
-  algorithm.prepare(input, spans);
+  algorithm.prepare(input, spans, frame_.seen_blocks().places());
   const uint64_t digest = algorithm.upload_digest();
   algorithm.count(frame_, input);
   PixelCounts counts = read_counts(frame_);
@@ -280,7 +280,7 @@ void SetupProof::prove_case(size_t i, const FrameInput& input) {
   tally.not_finite += to_ideal.not_finite;
 
   // The second time, and the timed program instead of the counting one.
-  algorithm.prepare(input, spans);
+  algorithm.prepare(input, spans, frame_.seen_blocks().places());
   tally.same_bytes &= digest == algorithm.upload_digest();
   algorithm.count(frame_, input);
   PixelCounts again = read_counts(frame_);

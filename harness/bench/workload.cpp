@@ -60,6 +60,8 @@ Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const S
   effects_.shadow_maps = setup.shading.shadow_maps;
   effects_.shadow_map_size = setup.shading.shadow_map_size;
   effects_.compute_lists = setup.shading.list_queue == ListQueue::compute;
+  if (setup.shading.light_fetch != LightFetch::automatic)
+    effects_.texel_fetch = setup.shading.light_fetch == LightFetch::texel;
   frames_ = std::make_unique<FrameSequence>(*scene_, *lights_, path_, setup.camera.frames, setup.width,
                                             setup.height, threads_, effects_.shapes());
 }

@@ -73,6 +73,9 @@ const std::vector<Row>& effects() {
       {"compute_lists",
        "lists that the device builds are built on its second queue, beside the shadow maps "
        "(shading.list_queue: graphics | compute)"},
+      {"texel_fetch",
+       "lights, trees' nodes and cells read four words at a time, through texel buffers; on software devices "
+       "(shading.light_fetch: auto | storage | texel)"},
       {"long_lists", "passes over all lights take several a turn; with more than 28,000 lights"},
   };
   return rows;

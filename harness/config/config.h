@@ -58,11 +58,16 @@ enum class ShadingTargets { one, split };
 // the shadow maps.
 enum class ListQueue { graphics, compute };
 
+// How shaders read light data and trees: as is known to be faster on the kind of device, word by word from
+// storage buffers, or four words at a time from texel buffers.
+enum class LightFetch { automatic, storage, texel };
+
 struct ShadingSpec {
   ShadingTargets targets = ShadingTargets::one;
   uint32_t shadow_maps = 0;         // drawn in a frame, [0, 16]; they light nothing yet
   uint32_t shadow_map_size = 1024;  // px a side, [16, 8192]
   ListQueue list_queue = ListQueue::graphics;
+  LightFetch light_fetch = LightFetch::automatic;
 };
 
 struct AlgorithmSpec {

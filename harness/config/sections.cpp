@@ -140,6 +140,11 @@ const std::vector<std::string>& list_queue_names() {
   return names;
 }
 
+const std::vector<std::string>& light_fetch_names() {
+  static const std::vector<std::string> names{"auto", "storage", "texel"};
+  return names;
+}
+
 }  // namespace
 
 std::span<const Field<SceneSpec>> scene_fields() {
@@ -256,6 +261,9 @@ std::span<const Field<ShadingSpec>> shading_fields() {
        [](const S& s) { return json(s.shadow_map_size); }},
       {"list_queue", [](const Node& n, S& s) { s.list_queue = read_enum<ListQueue>(n, list_queue_names()); },
        [](const S& s) { return write_enum(s.list_queue, list_queue_names()); }},
+      {"light_fetch",
+       [](const Node& n, S& s) { s.light_fetch = read_enum<LightFetch>(n, light_fetch_names()); },
+       [](const S& s) { return write_enum(s.light_fetch, light_fetch_names()); }},
   });
   return fields;
 }

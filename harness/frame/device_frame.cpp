@@ -28,7 +28,12 @@ void upload(gpu::UploadBuffer& buffer, std::span<const Element> elements) {
 
 }  // namespace
 
-std::vector<std::string> Effects::names() const {
+bool Effects::fetches_texels(const gpu::Device& device) const {
+  return texel_fetch.value_or(device.info().is_software() &&
+                              device.limits().texel_buffer_bytes >= device.limits().storage_buffer_range);
+}
+
+std::vector<std::string> Effects::names(const gpu::Device& device) const {
   std::vector<std::string> list{"omni"};
   if (spots) list.emplace_back("spot");
   if (capsules) list.emplace_back("capsule");
@@ -41,12 +46,14 @@ std::vector<std::string> Effects::names() const {
   if (split_targets) list.emplace_back("split_targets");
   if (shadow_maps) list.emplace_back("shadow_maps");
   if (compute_lists) list.emplace_back("compute_lists");
+  if (fetches_texels(device)) list.emplace_back("texel_fetch");
   if (long_lists) list.emplace_back("long_lists");
   return list;
 }
 
-std::vector<gpu::Constant> Effects::constants() const {
-  return {{0, spots}, {1, specular}, {3, long_lists}, {4, capsules}, {5, wedges}, {6, boxes}, {10, probes}};
+std::vector<gpu::Constant> Effects::constants(const gpu::Device& device) const {
+  return {{0, spots},  {1, specular}, {3, long_lists}, {4, capsules},
+          {5, wedges}, {6, boxes},    {10, probes},    {12, fetches_texels(device)}};
 }
 
 struct DeviceFrame::ContributingPasses {
@@ -57,10 +64,10 @@ struct DeviceFrame::ContributingPasses {
   std::unique_ptr<gpu::Buffer> indices;
 
   ContributingPasses(gpu::Device& device, const Effects& effects, uint32_t width, uint32_t height)
-      : bounds(device, contributing_bounds, "contributing: bounds", effects.constants()),
-        masks(device, contributing_masks, "contributing: masks", effects.constants()),
-        count(device, contributing_count, "contributing: count", effects.constants()),
-        fill(device, contributing_fill, "contributing: fill", effects.constants()),
+      : bounds(device, contributing_bounds, "contributing: bounds", effects.constants(device)),
+        masks(device, contributing_masks, "contributing: masks", effects.constants(device)),
+        count(device, contributing_count, "contributing: count", effects.constants(device)),
+        fill(device, contributing_fill, "contributing: fill", effects.constants(device)),
         count_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage,
                     "contributing counts"),
         hash_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage,
@@ -89,6 +96,7 @@ DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const Effects&
       view_(device, sizeof(gpu_data::ViewData), gpu::MemoryKind::upload, "view"),
       lights_(device, "lights"),
       extras_(device, "light extras"),
+      seen_blocks_(device, width, height),
       passes_(std::make_unique<ContributingPasses>(device, effects, width, height)) {
   if (effects.shadow_maps)
     shadow_maps_ = std::make_unique<ShadowMaps>(device, effects.shadow_maps, effects.shadow_map_size);
@@ -97,6 +105,12 @@ DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const Effects&
 DeviceFrame::~DeviceFrame() = default;
 
 void DeviceFrame::load(const FrameInput& input) {
+  const uint64_t texel_bytes = std::max(input.lights.core.size_bytes(), input.lights.extra.size_bytes());
+  if (effects_.fetches_texels(device_) && texel_bytes > device_.limits().texel_buffer_bytes)
+    throw SystemError(fmt::format(
+        "{} lights need a texel buffer of {} bytes, the device's holds {}; shading.light_fetch=storage needs "
+        "none",
+        input.lights.count(), texel_bytes, device_.limits().texel_buffer_bytes));
   std::memcpy(view_.mapped().data(), &input.view, sizeof input.view);
   upload(lights_, input.lights.core);
   upload(extras_, input.lights.extra);
@@ -105,12 +119,31 @@ void DeviceFrame::load(const FrameInput& input) {
   commands_.transfer(lights_);
   commands_.transfer(extras_);
   level_.record_gbuffer(commands_, view_, targets_);
+  clear_results();
+  seen_blocks_.record(commands_, bindings());
   commands_.submit();
+  seen_blocks_.read();
+  if (!seen_blocks_.list().has_twin()) return;
+  commands_.begin(gpu::Timing::none);
+  commands_.transfer(seen_blocks_.list());
+  commands_.submit();
+}
+
+void DeviceFrame::clear_results() {
+  commands_.clear(targets_.result);
+  if (targets_.diffuse) commands_.clear(*targets_.diffuse);
+  if (targets_.specular) commands_.clear(*targets_.specular);
 }
 
 const CounterTargets& DeviceFrame::counters() {
   if (!counters_) counters_ = std::make_unique<CounterTargets>(device_, targets_.width(), targets_.height());
   return *counters_;
+}
+
+void DeviceFrame::clear_counters() {
+  for (const gpu::Image* image : {&counters_->listed, &counters_->tested, &counters_->contributing,
+                                  &counters_->nodes, &counters_->hash, &counters_->traversal})
+    commands_.clear(*image);
 }
 
 gpu::Bindings DeviceFrame::bindings() const {
@@ -223,7 +256,11 @@ std::vector<float> DeviceFrame::read_aov(Aov kind) {
   commands_.dispatch(program, bindings(), std::span<const std::byte>{}, groups(targets_.width(), 8),
                      groups(targets_.height(), 8));
   commands_.submit();
-  return read_floats(targets_.result);
+  std::vector<float> floats = read_floats(targets_.result);
+  commands_.begin(gpu::Timing::none);
+  clear_results();
+  commands_.submit();
+  return floats;
 }
 
 }  // namespace ml

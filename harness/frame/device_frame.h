@@ -4,10 +4,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "algorithms/algorithm.h"
 #include "harness/frame/level.h"
+#include "harness/frame/seen_blocks.h"
 #include "harness/frame/shadow_maps.h"
 #include "harness/frame/targets.h"
 #include "harness/gpu/commands.h"
@@ -32,12 +35,17 @@ struct Effects {
   // (shading.list_queue: compute).
   uint32_t shadow_maps = 0, shadow_map_size = 1024;
   bool compute_lists = false;
+  // Light data, trees' nodes and cells come through texel buffers (shading.light_fetch); none: as is known to
+  // be faster on the kind of device.
+  std::optional<bool> texel_fetch = std::nullopt;
+  bool fetches_texels(const gpu::Device& device) const;
   // Passes over all lights that are fit for more than `most_turns` of them (shaders/light_eval.glsl says
   // why); costs compile time. Shading loops go by what a frame's pixels walk (ShadedAlgorithm).
   bool long_lists = true;
   static constexpr uint32_t most_turns = 28000;
-  bool long_walks = false;                 // shading loops for long walks in every frame: tests ask for them
-  std::vector<std::string> names() const;  // those that are on, "omni" first
+  bool long_walks = false;  // shading loops for long walks in every frame: tests ask for them
+  // Those that are on, "omni" first.
+  std::vector<std::string> names(const gpu::Device& device) const;
   // As FrameLightStorage::fill takes them: shapes that are off shine like omni lights, probe lights like
   // direct ones.
   uint32_t shapes() const {
@@ -45,7 +53,7 @@ struct Effects {
            (probes ? 32u : 0u);
   }
   // The specialization constants that shaders/light_eval.glsl asks for.
-  std::vector<gpu::Constant> constants() const;
+  std::vector<gpu::Constant> constants(const gpu::Device& device) const;
 };
 
 // Per-pixel counts of contributing lights, found without any algorithm under test, and on demand the lists
@@ -61,8 +69,11 @@ class DeviceFrame {
               uint32_t height);
   ~DeviceFrame();
 
-  // Uploads view and lights of the frame and draws the g-buffer.
+  // Uploads view and lights of the frame, draws the g-buffer, and leaves the pictures that are shaded into
+  // black: blocks where nothing is seen stay so.
   void load(const FrameInput& input);
+  // Of the frame that is loaded.
+  const SeenBlocks& seen_blocks() const { return seen_blocks_; }
 
   // Finds the contributing lights of the loaded frame (bounds of each 8x8 block's points against every light,
   // then every pixel against what is left). With `lists` their indices stay on the device for shading passes
@@ -75,6 +86,7 @@ class DeviceFrame {
   gpu::Commands& commands() { return commands_; }
   const FrameTargets& targets() const { return targets_; }
   const CounterTargets& counters();
+  void clear_counters();  // records it; they must be there
   const Effects& effects() const { return effects_; }
   // The resources that every shading pass may bind.
   gpu::Bindings bindings() const;
@@ -103,6 +115,7 @@ class DeviceFrame {
 
  private:
   void read_image(const gpu::Image& image);
+  void clear_results();  // records it
 
   gpu::Device& device_;
   Effects effects_;
@@ -113,6 +126,7 @@ class DeviceFrame {
   gpu::Commands commands_;
   gpu::Buffer view_;
   gpu::UploadBuffer lights_, extras_;
+  SeenBlocks seen_blocks_;
   std::unique_ptr<gpu::Buffer> readback_;
   struct ContributingPasses;
   std::unique_ptr<ContributingPasses> passes_;

@@ -1,5 +1,7 @@
 #include "harness/frame/shaded_algorithm.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <tuple>
@@ -37,7 +39,7 @@ std::unique_ptr<Algorithm> created(gpu::Device& device, const AlgorithmEntry& en
   if (wants_fp64 && !device.limits().fp64)
     throw SystemError(entry.info.name + ": '" + device.info().name + "' has no 64-bit floats");
   auto algorithm = entry.create(parameters);
-  algorithm->create_gpu(device, effects.constants());
+  algorithm->create_gpu(device, effects.constants(device));
   return algorithm;
 }
 
@@ -66,7 +68,7 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
                       "effects.forward=off lights them deferred");
   const ShadeShaders shaders = algorithm_->shade_shaders();
   // Forward materials have their albedo at hand: their light goes to the result at once. Pixels walk alone.
-  std::vector<gpu::Constant> constants = effects.constants();
+  std::vector<gpu::Constant> constants = effects.constants(device);
   append_numbered(constants, first_own_id, algorithm_->shade_constants());
   forward_timed_ = Level::forward_program(device, shaders.forward, entry.info.name + ": forward", constants);
   forward_counting_ = Level::forward_program(device, shaders.forward_counting,
@@ -76,11 +78,11 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
 // Ids shared by every shading program: shaders/light_eval.glsl, shaders/shade.comp.
 const gpu::ComputeProgram& ShadedAlgorithm::program(const Variant& variant) {
   if (auto found = programs_.find(variant); found != programs_.end()) return found->second;
-  std::vector<gpu::Constant> constants = effects_.constants();
+  std::vector<gpu::Constant> constants = effects_.constants(device_);
   for (gpu::Constant& constant : constants)
     if (constant.id == 3) constant.value = variant.long_walks;
-  constants.push_back({2, variant.block_list});
   constants.push_back({7, together_});
+  constants.push_back({11, device_.limits().one_subgroup_size ? device_.limits().subgroup_size : 0});
   constants.push_back({8, effects_.forward && !variant.sampled});
   constants.push_back({9, effects_.split_targets && !variant.sampled});
   const uint32_t behind = append_numbered(constants, first_own_id, algorithm_->shade_constants());
@@ -108,6 +110,12 @@ bool ShadedAlgorithm::walks_far(const DeviceFrame& frame, const FrameInput& inpu
 }
 
 std::span<std::byte> ShadedAlgorithm::map(uint32_t slot, size_t bytes) {
+  const uint64_t texel_bytes = device_.limits().texel_buffer_bytes;
+  if (effects_.fetches_texels(device_) && bytes > texel_bytes)
+    throw SystemError(
+        fmt::format("{} needs a texel buffer of {} bytes, the device's holds {}; "
+                    "shading.light_fetch=storage needs none",
+                    buffers_.at(slot).name(), bytes, texel_bytes));
   return buffers_.at(slot).map(bytes);
 }
 
@@ -116,7 +124,9 @@ bool ShadedAlgorithm::cached(uint32_t slot) const {
 }
 
 size_t ShadedAlgorithm::limit() const {
-  return device_.limits().storage_buffer_range;
+  const gpu::DeviceLimits& limits = device_.limits();
+  return effects_.fetches_texels(device_) ? std::min(limits.storage_buffer_range, limits.texel_buffer_bytes)
+                                          : limits.storage_buffer_range;
 }
 
 uint64_t ShadedAlgorithm::upload_bytes() const {
@@ -128,56 +138,58 @@ uint64_t ShadedAlgorithm::upload_bytes() const {
   return sum;
 }
 
-void ShadedAlgorithm::prepare(const FrameInput& input, Spans& spans) {
+void ShadedAlgorithm::prepare(const FrameInput& input, Spans& spans, std::span<const glm::uvec2> blocks) {
   algorithm_->prepare(input, *this, spans);
   auto span = spans.span("upload");
-  sort_blocks(input);
+  sort_blocks(input, blocks);
 }
 
-void ShadedAlgorithm::sort_blocks(const FrameInput& input) {
+// Of each block along one axis of so many pixels.
+void ShadedAlgorithm::tiles_across(std::vector<TileRange>& tiles, uint32_t pixels, uint32_t tile,
+                                   uint32_t count) {
+  tiles.resize((pixels + 7) / 8);
+  for (uint32_t block = 0; block < tiles.size(); ++block)
+    tiles[block] = {block * 8 / tile, std::min((block * 8 + 7) / tile, count - 1)};
+}
+
+void ShadedAlgorithm::sort_blocks(const FrameInput& input, std::span<const glm::uvec2> blocks) {
   const TileClasses classes = algorithm_->tile_classes();
   one_class_ = true;
   only_class_ = classes.most;
-  if (classes.of_tile.empty()) return;
+  if (classes.of_tile.empty() || blocks.empty()) return;
   const auto [lowest, highest_of_all] = std::ranges::minmax(classes.of_tile);
   only_class_ = highest_of_all;
   if (lowest == highest_of_all) return;
-  const uint32_t across = (input.view.resolution.x + 7) / 8, down = (input.view.resolution.y + 7) / 8;
   block_ends_.assign(classes.most + size_t{1}, 0);
-  class_of_block_.resize(size_t{across} * down);
+  class_of_block_.resize(blocks.size());
   const auto rows = static_cast<uint32_t>(classes.of_tile.size() / classes.columns);
-  for (uint32_t y = 0; y < down; ++y) {
-    const uint32_t row0 = y * 8 / classes.tile, row1 = std::min((y * 8 + 7) / classes.tile, rows - 1);
-    for (uint32_t x = 0; x < across; ++x) {
-      // A block may lie in several tiles: the highest class can do what all need.
-      const uint32_t column0 = x * 8 / classes.tile,
-                     column1 = std::min((x * 8 + 7) / classes.tile, classes.columns - 1);
-      uint8_t highest = 0;
-      for (uint32_t row = row0; row <= row1; ++row)
-        for (uint32_t column = column0; column <= column1; ++column)
-          highest = std::max(highest, classes.of_tile[row * classes.columns + column]);
-      class_of_block_[y * across + x] = highest;
-      ++block_ends_[highest];
-    }
+  tiles_across(tiles_of_column_, input.view.resolution.x, classes.tile, classes.columns);
+  tiles_across(tiles_of_row_, input.view.resolution.y, classes.tile, rows);
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    // A block may lie in several tiles: the highest class can do what all need.
+    const TileRange across = tiles_of_column_[blocks[i].x], down = tiles_of_row_[blocks[i].y];
+    uint8_t highest = 0;
+    for (uint32_t row = down.first; row <= down.last; ++row)
+      for (uint32_t column = across.first; column <= across.last; ++column)
+        highest = std::max(highest, classes.of_tile[row * classes.columns + column]);
+    class_of_block_[i] = highest;
+    ++block_ends_[highest];
   }
   for (uint32_t c = 0; c <= classes.most; ++c)
-    if (block_ends_[c] == class_of_block_.size()) {
+    if (block_ends_[c] == blocks.size()) {
       only_class_ = c;
       return;
     }
   one_class_ = false;
   uint32_t begin = 0;
   for (uint32_t& end : block_ends_) begin += std::exchange(end, begin);
-  auto* blocks =
-      reinterpret_cast<glm::uvec2*>(class_blocks_.map(class_of_block_.size() * sizeof(glm::uvec2)).data());
-  for (uint32_t y = 0; y < down; ++y)
-    for (uint32_t x = 0; x < across; ++x) blocks[block_ends_[class_of_block_[y * across + x]]++] = {x, y};
+  auto* sorted = reinterpret_cast<glm::uvec2*>(class_blocks_.map(blocks.size_bytes()).data());
+  for (size_t i = 0; i < blocks.size(); ++i) sorted[block_ends_[class_of_block_[i]]++] = blocks[i];
 }
 
 gpu::Bindings ShadedAlgorithm::bindings(const DeviceFrame& frame) const {
   gpu::Bindings list = frame.bindings();
   for (size_t slot = 0; slot < names_.size(); ++slot) list.emplace_back(names_[slot], buffers_[slot]);
-  list.emplace_back("Blocks", class_blocks_);
   return list;
 }
 
@@ -216,15 +228,20 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
       into.emplace_back("Result", *targets.diffuse);
     }
     Variant variant{.counting = counting, .long_walks = walks_far(frame, input), .tile_class = only_class_};
-    variant.block_list = !one_class_;
+    into.emplace_back("Blocks", one_class_ ? frame.seen_blocks().list() : class_blocks_);
+    if (counting) frame.clear_counters();
     auto span = commands.span("shade");
     // Every pixel is in one block, and every block in one dispatch.
     auto apart = commands.unordered();
-    if (one_class_) commands.dispatch(program(variant), into, uint32_t{0}, across, down);
-    for (uint32_t c = 0, first = 0; !one_class_ && c < block_ends_.size(); ++c)
-      for (variant.tile_class = c; first < block_ends_[c];
-           first += std::min(most_groups, block_ends_[c] - first))
-        commands.dispatch(program(variant), into, first, std::min(most_groups, block_ends_[c] - first));
+    const auto shade_blocks = [&](uint32_t first, uint32_t end) {
+      for (; first < end; first += std::min(most_groups, end - first))
+        commands.dispatch(program(variant), into, first, std::min(most_groups, end - first));
+    };
+    if (one_class_) shade_blocks(0, static_cast<uint32_t>(frame.seen_blocks().places().size()));
+    for (uint32_t c = 0; !one_class_ && c < block_ends_.size(); ++c) {
+      variant.tile_class = c;
+      shade_blocks(c == 0 ? 0 : block_ends_[c - 1], block_ends_[c]);
+    }
   }
   if (composite_) {
     auto span = commands.span("composite");
@@ -263,11 +280,9 @@ void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input,
   for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
   commands.transfer(sampled_blocks_);
   gpu::Bindings list = cull(commands, frame, input);
-  std::erase_if(list, [](const gpu::Binding& binding) { return binding.name == "Blocks"; });
   list.emplace_back("Blocks", sampled_blocks_);
   const Variant variant{.counting = true,
                         .sampled = true,
-                        .block_list = true,
                         .long_walks = walks_far(frame, input),
                         .tile_class = algorithm_->tile_classes().most};
   commands.dispatch(program(variant), list, uint32_t{0}, static_cast<uint32_t>(blocks.size()));

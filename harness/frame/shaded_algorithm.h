@@ -18,8 +18,9 @@ class ShadedAlgorithm final : private UploadMemory {
   ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entry, const Parameters& parameters,
                   const Effects& effects);
 
-  // CPU: lists of the frame into mapped memory. Spans of the algorithm's stages.
-  void prepare(const FrameInput& input, Spans& spans);
+  // CPU: lists of the frame into mapped memory. Spans of the algorithm's stages. `blocks`: the 8x8 px blocks
+  // that will be shaded, in their order: those of the frame that is loaded (SeenBlocks).
+  void prepare(const FrameInput& input, Spans& spans, std::span<const glm::uvec2> blocks);
 
   // GPU, timed: list building and shading of the frame that is loaded.
   gpu::SubmissionTimes shade(DeviceFrame& frame, const FrameInput& input, gpu::Timing timing);
@@ -51,8 +52,7 @@ class ShadedAlgorithm final : private UploadMemory {
   // What a program of the shading loop is compiled for.
   struct Variant {
     bool counting = false;
-    bool sampled = false;     // the deferred reference of count_blocks()
-    bool block_list = false;  // blocks from a list, not the whole picture
+    bool sampled = false;  // the deferred reference of count_blocks()
     bool long_walks = false;
     uint32_t tile_class = 0;
     auto operator<=>(const Variant&) const = default;
@@ -60,8 +60,12 @@ class ShadedAlgorithm final : private UploadMemory {
   // Made when first asked for: throws SystemError when the device refuses it.
   const gpu::ComputeProgram& program(const Variant& variant);
   bool walks_far(const DeviceFrame& frame, const FrameInput& input) const;
-  // Sorts the picture's 8x8 blocks by the class of the tiles that they lie in.
-  void sort_blocks(const FrameInput& input);
+  // Sorts the blocks by the class of the tiles that they lie in.
+  void sort_blocks(const FrameInput& input, std::span<const glm::uvec2> blocks);
+  struct TileRange {
+    uint32_t first, last;
+  };
+  static void tiles_across(std::vector<TileRange>& tiles, uint32_t pixels, uint32_t tile, uint32_t count);
 
   gpu::Device& device_;
   const AlgorithmEntry& entry_;
@@ -75,6 +79,7 @@ class ShadedAlgorithm final : private UploadMemory {
   // use while all blocks are of one class.
   gpu::UploadBuffer class_blocks_;
   std::vector<uint8_t> class_of_block_;
+  std::vector<TileRange> tiles_of_column_, tiles_of_row_;  // of blocks
   std::vector<uint32_t> block_ends_;
   uint32_t only_class_ = 0;
   bool one_class_ = true;

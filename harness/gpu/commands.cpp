@@ -23,11 +23,13 @@ vk::DescriptorSet Commands::Impl::bind(const Layout& layout, const Bindings& bin
   std::vector<vk::WriteDescriptorSet> writes;
   std::vector<vk::DescriptorBufferInfo> buffers;
   std::vector<vk::DescriptorImageInfo> images;
+  std::vector<vk::BufferView> texels;
   buffers.reserve(layout.slots.size());
+  texels.reserve(layout.slots.size());
   images.reserve(layout.slots.size());
   vk::DescriptorSet set = sets.allocate(device, *layout.set_layout);
   for (const auto& entry : layout.slots) {
-    const std::string& name = entry.first;
+    const std::string& name = entry.second.resource;
     const BindingSlot& slot = entry.second;
     auto found =
         std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == name; });
@@ -37,6 +39,11 @@ vk::DescriptorSet Commands::Impl::bind(const Layout& layout, const Bindings& bin
     if (slot.type == vk::DescriptorType::eStorageBuffer || slot.type == vk::DescriptorType::eUniformBuffer) {
       if (!found->buffer) throw std::logic_error(fmt::format("{}: '{}' is a buffer", program, name));
       write.pBufferInfo = &buffers.emplace_back(*found->buffer->impl().buffer, 0, VK_WHOLE_SIZE);
+    } else if (slot.type == vk::DescriptorType::eUniformTexelBuffer) {
+      if (!found->buffer) throw std::logic_error(fmt::format("{}: '{}' is a buffer", program, name));
+      if (found->buffer->bytes() < 16)
+        throw std::logic_error(fmt::format("{}: '{}' has no four words", program, name));
+      write.pTexelBufferView = &texels.emplace_back(*found->buffer->impl().quads);
     } else {
       if (!found->image) throw std::logic_error(fmt::format("{}: '{}' is an image", program, name));
       to_general(*found->image);

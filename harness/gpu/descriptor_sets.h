@@ -33,7 +33,8 @@ class DescriptorSets {
     std::array sizes{vk::DescriptorPoolSize(Type::eStorageBuffer, sets * 8),
                      vk::DescriptorPoolSize(Type::eUniformBuffer, sets * 2),
                      vk::DescriptorPoolSize(Type::eStorageImage, sets * 8),
-                     vk::DescriptorPoolSize(Type::eCombinedImageSampler, sets * 4)};
+                     vk::DescriptorPoolSize(Type::eCombinedImageSampler, sets * 4),
+                     vk::DescriptorPoolSize(Type::eUniformTexelBuffer, sets * 4)};
     return {device.device, vk::DescriptorPoolCreateInfo({}, sets, sizes)};
   }
   std::vector<vk::raii::DescriptorPool> pools_;

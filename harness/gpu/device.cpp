@@ -206,10 +206,12 @@ size_t choose(const std::vector<DeviceInfo>& infos, std::string selector) {
 }
 
 DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, const QueueChoice& queues) {
-  auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>();
+  auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties,
+                                       vk::PhysicalDeviceVulkan13Properties>();
   const vk::PhysicalDeviceLimits& limits = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
   DeviceLimits result;
   result.storage_buffer_range = limits.maxStorageBufferRange;
+  result.texel_buffer_bytes = uint64_t{limits.maxTexelBufferElements} * 16;
   result.image_size =
       std::min(limits.maxImageDimension2D, std::min(limits.maxFramebufferWidth, limits.maxFramebufferHeight));
   result.group_count = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
@@ -219,6 +221,9 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, const QueueCh
       vk::SubgroupFeatureFlagBits::eVote | vk::SubgroupFeatureFlagBits::eBallot |
       vk::SubgroupFeatureFlagBits::eShuffle | vk::SubgroupFeatureFlagBits::eArithmetic;
   result.subgroup_size = subgroups.subgroupSize;
+  const auto& sizes = chain.get<vk::PhysicalDeviceVulkan13Properties>();
+  result.one_subgroup_size =
+      sizes.minSubgroupSize == sizes.maxSubgroupSize && sizes.minSubgroupSize == subgroups.subgroupSize;
   result.subgroup_exchange = (subgroups.supportedStages & vk::ShaderStageFlagBits::eCompute) &&
                              (subgroups.supportedOperations & exchange) == exchange;
   result.push_constant_bytes = limits.maxPushConstantsSize;

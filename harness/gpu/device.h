@@ -30,9 +30,11 @@ struct DeviceInfo {
 
 struct DeviceLimits {
   uint64_t storage_buffer_range = 0;      // bytes one storage buffer can show to a shader
+  uint64_t texel_buffer_bytes = 0;        // that a texel buffer of four words a texel can show
   uint32_t image_size = 0;                // px per side
   std::array<uint32_t, 3> group_count{};  // workgroups per dispatch
   uint32_t subgroup_size = 0;             // lanes
+  bool one_subgroup_size = false;         // no program has subgroups of another size
   bool subgroup_exchange =
       false;  // votes, ballots, shuffles and arithmetic across a subgroup in compute shaders
   uint32_t push_constant_bytes = 0;

@@ -40,6 +40,12 @@ class Reflection {
     const char* variable = spvc_compiler_get_name(compiler_, resource.id);
     return variable && *variable ? variable : resource.name;
   }
+  bool is_texel_buffer(const spvc_reflected_resource& resource) const {
+    const spvc_type type = spvc_compiler_get_type_handle(compiler_, resource.base_type_id);
+    const spvc_basetype base = spvc_type_get_basetype(type);
+    return (base == SPVC_BASETYPE_SAMPLED_IMAGE || base == SPVC_BASETYPE_IMAGE) &&
+           spvc_type_get_image_dimension(type) == SpvDimBuffer;
+  }
   uint32_t bytes(const spvc_reflected_resource& resource) const {
     size_t size = 0;
     spvc_compiler_get_declared_struct_size(
@@ -81,12 +87,21 @@ void Layout::add_module(std::span<const uint32_t> spirv, vk::ShaderStageFlagBits
       {SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, vk::DescriptorType::eUniformBuffer},
       {SPVC_RESOURCE_TYPE_STORAGE_IMAGE, vk::DescriptorType::eStorageImage},
       {SPVC_RESOURCE_TYPE_SAMPLED_IMAGE, vk::DescriptorType::eCombinedImageSampler},
+      {SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, vk::DescriptorType::eUniformTexelBuffer},
   };
   for (const auto& [kind, type] : kinds)
     for (const spvc_reflected_resource& resource : reflection.list(kind)) {
       BindingSlot& slot = slots[reflection.name(resource)];
       slot.binding = reflection.binding(resource.id);
       slot.type = type;
+      slot.resource = reflection.name(resource);
+      if (reflection.is_texel_buffer(resource)) {
+        constexpr std::string_view quads = "Quads";
+        if (!slot.resource.ends_with(quads))
+          throw std::logic_error(program + ": no texel buffer is called " + slot.resource);
+        slot.type = vk::DescriptorType::eUniformTexelBuffer;
+        slot.resource.resize(slot.resource.size() - quads.size());
+      }
       slot.stages |= stage;
     }
   for (const spvc_reflected_resource& resource : reflection.list(SPVC_RESOURCE_TYPE_PUSH_CONSTANT)) {

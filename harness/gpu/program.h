@@ -1,5 +1,6 @@
 // Compute and raster programs. Their descriptor layouts come from reflection of the SPIR-V, so a pass names
-// what it binds.
+// what it binds. A texel buffer (usamplerBuffer) with the name of a buffer and "Quads" behind it shows that
+// buffer's words, four a texel.
 #pragma once
 
 #include <cstdint>

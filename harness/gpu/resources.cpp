@@ -11,6 +11,8 @@ namespace {
 
 using Property = vk::MemoryPropertyFlagBits;
 
+constexpr size_t quad_bytes = 16;
+
 // The first memory type allowed by `bits` that has all of one of the wishes, tried in order.
 uint32_t memory_type(const Device::Impl& device, uint32_t bits,
                      std::initializer_list<vk::MemoryPropertyFlags> wishes) {
@@ -79,7 +81,8 @@ Buffer::Buffer(Device& owner, size_t bytes, MemoryKind kind, const std::string& 
                                   device.info.name, device.limits.storage_buffer_range));
   using Usage = vk::BufferUsageFlagBits;
   vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eUniformBuffer | Usage::eTransferSrc |
-                               Usage::eTransferDst | Usage::eVertexBuffer | Usage::eIndexBuffer;
+                               Usage::eTransferDst | Usage::eVertexBuffer | Usage::eIndexBuffer |
+                               Usage::eUniformTexelBuffer;
   // Shaders never see readback memory, so their range does not limit it.
   if (kind == MemoryKind::readback) usage = Usage::eTransferDst;
   const Sharing sharing(device);
@@ -90,6 +93,11 @@ Buffer::Buffer(Device& owner, size_t bytes, MemoryKind kind, const std::string& 
   uint32_t type = memory_type(device, needs.memoryTypeBits, kind);
   impl_->memory = allocate(device, needs, type, name);
   impl_->buffer.bindMemory(*impl_->memory, 0);
+  if (kind != MemoryKind::readback && bytes >= quad_bytes)
+    impl_->quads = vk::raii::BufferView(
+        device.device, vk::BufferViewCreateInfo({}, *impl_->buffer, vk::Format::eR32G32B32A32Uint, 0,
+                                                std::min<uint64_t>(bytes, device.limits.texel_buffer_bytes) /
+                                                    quad_bytes * quad_bytes));
   impl_->device_local =
       static_cast<bool>(device.memory.memoryTypes[type].propertyFlags & Property::eDeviceLocal);
   impl_->cached = static_cast<bool>(device.memory.memoryTypes[type].propertyFlags & Property::eHostCached);

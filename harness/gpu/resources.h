@@ -17,7 +17,8 @@ enum class MemoryKind {
   readback,  // mapped for reading, cached where possible
 };
 
-// A buffer of bytes: storage, uniform, vertex, index and transfer uses are all allowed.
+// A buffer of bytes: storage, uniform, vertex, index and transfer uses are all allowed; texel buffers show as
+// much of it as DeviceLimits::texel_buffer_bytes.
 class Buffer {
  public:
   // `bytes` > 0. Throws SystemError naming `name`, the bytes and the limit when it is over the device's

@@ -50,6 +50,7 @@ struct Device::Impl {
 struct Buffer::Impl {
   vk::raii::DeviceMemory memory = nullptr;
   vk::raii::Buffer buffer = nullptr;
+  vk::raii::BufferView quads = nullptr;  // as texels of four words; none for readback
   std::span<std::byte> mapped;
   bool device_local = false, cached = false;
 };
@@ -83,6 +84,7 @@ struct Sharing {
 struct BindingSlot {
   uint32_t binding = 0;
   vk::DescriptorType type{};
+  std::string resource;  // the name of what is bound
   vk::ShaderStageFlags stages;
 };
 

@@ -50,7 +50,7 @@ TEST_F(HardCases, Case40_ResolutionChangesBetweenFrames) {
     frame.load(input);
     const ContributingLights truth = frame.find_contributing(input, false);
     Spans spans;
-    algorithm.prepare(input, spans);
+    algorithm.prepare(input, spans, frame.seen_blocks().places());
     algorithm.count(frame, input);
     FrameCounters counters = summarize(read_counts(frame), truth, lit_pixels(frame), algorithm.counters());
     EXPECT_EQ(counters.lost, 0u);
@@ -82,7 +82,7 @@ TEST_F(HardCases, Case43_ListsOverTheStorageRangeAreAnError) {
     ShadedAlgorithm algorithm(device(), entry, parameters, {.spots = true});
     Spans spans;
     try {
-      algorithm.prepare(input, spans);
+      algorithm.prepare(input, spans, {});
       ADD_FAILURE() << layout << ": no error";
     } catch (const SystemError& error) {
       const std::string text = error.what();
@@ -95,7 +95,7 @@ TEST_F(HardCases, Case43_ListsOverTheStorageRangeAreAnError) {
     one.lights.z = input.lights.z.first(1);
     one.lights.radius = input.lights.radius.first(1), one.lights.core = input.lights.core.first(1);
     one.view.light_count = 1;
-    algorithm.prepare(one, spans);
+    algorithm.prepare(one, spans, {});
     EXPECT_EQ(algorithm.counters().in_frustum, 1u);
   }
 }

@@ -202,14 +202,14 @@ Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& li
   seen.lit = ml::lit_pixels(frame_);
 
   Spans spans;
-  brute_.prepare(input_, spans);
+  brute_.prepare(input_, spans, frame_.seen_blocks().places());
   brute_.count(frame_, input_);
   seen.image = result_picture(frame_);
   EXPECT_EQ(mismatches(read_counts(frame_), seen.truth), 0u) << "pixels, brute_force";
   EXPECT_EQ(compare_images(seen.image, seen.image).not_finite, 0u) << "brute_force";
   const double floor = floor_of(seen.image);
 
-  ideal_.prepare(input_, spans);
+  ideal_.prepare(input_, spans, frame_.seen_blocks().places());
   ideal_.count(frame_, input_);
   {
     SCOPED_TRACE("ideal");
@@ -228,7 +228,7 @@ void Exactness::expect_trial(const Trial& trial, Seen& seen, double floor) {
   Slot& slot = slot_of(trial);
   ShadedAlgorithm& algorithm = *slot.shaded;
   Spans spans;
-  algorithm.prepare(input_, spans);
+  algorithm.prepare(input_, spans, frame_.seen_blocks().places());
   const uint64_t digest = algorithm.upload_digest();
   algorithm.count(frame_, input_);
   PixelCounts counts = read_counts(frame_);
@@ -251,7 +251,7 @@ void Exactness::expect_trial(const Trial& trial, Seen& seen, double floor) {
     Threads threads(count);
     FrameInput again = input_;
     again.threads = &threads;
-    algorithm.prepare(again, spans);
+    algorithm.prepare(again, spans, frame_.seen_blocks().places());
     EXPECT_EQ(algorithm.upload_digest(), digest) << count << " threads";
   }
   algorithm.count(frame_, input_);

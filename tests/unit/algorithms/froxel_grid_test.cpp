@@ -76,6 +76,15 @@ TEST(FroxelGrid, HasPartialLastColumnsAndRows) {
   EXPECT_EQ(FroxelGrid::make(view_of(97, 61, 500), 4, 2, 5, 0).columns, 25u);
 }
 
+// Shaders find a pixel's tile without a division.
+TEST(FroxelGrid, TileOfAPixelIsThatOfTheDivision) {
+  for (uint32_t tile = 1; tile <= 1024; ++tile) {
+    const float inverse = FroxelGrid::make(view_of(16384, 16384, 500), tile, 1, 5, 0).data().inverse_tile;
+    for (uint32_t pixel = 0; pixel < 16384; ++pixel)
+      ASSERT_EQ(gpu_data::tile_of_pixel(pixel, inverse), pixel / tile) << pixel << " by " << tile;
+  }
+}
+
 TEST(FroxelGrid, ZmaxBelowZminIsRaised) {
   FroxelGrid grid = FroxelGrid::make(view_of(100, 100, 3), 48, 16, 5, 0);
   EXPECT_TRUE(std::isfinite(grid.mapping.scale));

@@ -163,6 +163,7 @@ json random_config() {
     if (now()) config["shading"]["shadow_maps"] = integer(0, 16);
     if (now()) config["shading"]["shadow_map_size"] = integer(16, 8192);
     if (now()) config["shading"]["list_queue"] = one_of({"graphics", "compute"});
+    if (now()) config["shading"]["light_fetch"] = one_of({"auto", "storage", "texel"});
   }
   if (now()) {
     json sweep = json::object();

@@ -1,0 +1,41 @@
+// Votes and minima across a subgroup all of whose lanes take part. Small subgroups exchange values, log2 of their size times: Mesa's software
+// driver (8 lanes) makes a shuffle one instruction, and a loop over all lanes of every vote, ballot and minimum.
+#ifndef ML_SUBGROUP_EXCHANGE_GLSL
+#define ML_SUBGROUP_EXCHANGE_GLSL
+
+// Lanes of a subgroup, where the device has one size only; else 0. That driver takes gl_SubgroupSize for no constant, and runs both sides of
+// what depends on it.
+layout(constant_id = 11) const uint SUBGROUP_LANES = 0u;
+const bool small_subgroup = SUBGROUP_LANES != 0u && SUBGROUP_LANES <= 8u;
+
+uint subgroup_lanes() { return SUBGROUP_LANES != 0u ? SUBGROUP_LANES : gl_SubgroupSize; }
+
+// The value of the lane whose number differs in one bit.
+uint across(uint value, uint bit) { return subgroupShuffle(value, gl_SubgroupInvocationID ^ bit); }
+
+uint lowest_of_all(uint value) {
+  if (!small_subgroup) return subgroupMin(value);
+  if (SUBGROUP_LANES > 1u) value = min(value, across(value, 1u));
+  if (SUBGROUP_LANES > 2u) value = min(value, across(value, 2u));
+  if (SUBGROUP_LANES > 4u) value = min(value, across(value, 4u));
+  return value;
+}
+
+// In small subgroups only.
+uint bits_of_all(uint value) {
+  if (SUBGROUP_LANES > 1u) value |= across(value, 1u);
+  if (SUBGROUP_LANES > 2u) value |= across(value, 2u);
+  if (SUBGROUP_LANES > 4u) value |= across(value, 4u);
+  return value;
+}
+
+bool any_of_all(bool value) {
+  return small_subgroup ? bits_of_all(value ? 1u : 0u) != 0u : subgroupAny(value);
+}
+
+// A bit for each of the first 32 lanes where it holds.
+uint lanes_where(bool value) {
+  return small_subgroup ? bits_of_all(value ? 1u << gl_SubgroupInvocationID : 0u) : subgroupBallot(value).x;
+}
+
+#endif

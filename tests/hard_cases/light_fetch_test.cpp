@@ -1,0 +1,60 @@
+// Light data and trees from storage buffers and from texel buffers (shading.light_fetch): the same bits.
+#include <gtest/gtest.h>
+
+#include "harness/accuracy/image_metrics.h"
+#include "tests/hard_cases/hard_cases.h"
+
+namespace ml::test {
+namespace {
+
+constexpr uint32_t width = 91, height = 67;
+
+class LightFetch : public DeviceTest {};
+
+Effects fetched(bool texels, bool long_lists) {
+  Effects effects = all_shapes(long_lists);
+  effects.probes = true;
+  effects.texel_fetch = texels;
+  return effects;
+}
+
+TEST_F(LightFetch, BothWaysGiveTheSameBitsWithEveryAlgorithm) {
+  const Camera camera = camera_at({-3, 5, 22}, {-2, 1, 0}, width, height);
+  std::vector<Light> lights = mixed_shapes(300, {-25, 0, -20}, {25, 7, 18}, 1, 12, 3);
+  for (size_t i = 0; i < lights.size(); i += 7) lights[i].probe = true;
+  for (bool long_lists : {false, true}) {
+    SCOPED_TRACE(long_lists);
+    Exactness storage(yard(), width, height, fetched(false, long_lists));
+    Exactness texels(yard(), width, height, fetched(true, long_lists));
+    const Seen one = storage.expect_trials(camera, lights, every_algorithm(), 12);
+    const Seen other = texels.expect_trials(camera, lights, every_algorithm(), 12);
+    ASSERT_EQ(one.counts.size(), other.counts.size());
+    for (size_t i = 0; i < one.counts.size(); ++i) {
+      SCOPED_TRACE(every_algorithm()[i].text());
+      EXPECT_EQ(one.counts[i].tested, other.counts[i].tested);
+      EXPECT_EQ(one.counts[i].nodes, other.counts[i].nodes);
+      EXPECT_EQ(one.counts[i].hash, other.counts[i].hash);
+    }
+    EXPECT_EQ(compare_images(one.image, other.image).differing_bits, 0u);
+  }
+}
+
+// A buffer of a single light is as small as buffers get.
+TEST_F(LightFetch, OneLightAndNone) {
+  const Camera camera = camera_at({0, 3, 14}, {0, 1, -10}, width, height);
+  Exactness texels(yard(), width, height, fetched(true, false));
+  texels.expect_trials(camera, {omni({0, 2, 2}, 9)}, every_algorithm(), 4);
+  texels.expect_trials(camera, {}, every_algorithm(), 0);
+}
+
+TEST_F(LightFetch, SoftwareDevicesFetchTexelsUnlessTold) {
+  const Effects effects;
+  EXPECT_EQ(effects.fetches_texels(device()),
+            device().info().is_software() &&
+                device().limits().texel_buffer_bytes >= device().limits().storage_buffer_range);
+  EXPECT_TRUE(fetched(true, false).fetches_texels(device()));
+  EXPECT_FALSE(fetched(false, false).fetches_texels(device()));
+}
+
+}  // namespace
+}  // namespace ml::test
