@@ -1,7 +1,8 @@
 // What the benchmarks of prepare() share: light sets, memory to upload to, and how results are reported.
 //
-// Two light sets: `view` has every light in the view, at depths spread as the slices are, with radii that
-// give about 4 froxels a light; `canyon` is the canyon scene at its overlook, where most lights are culled.
+// Three light sets: `view` has every light in the view, at depths spread as the slices are, with radii that
+// give about 4 froxels a light, however many there are; `canyon` and `citadel` are levels, the one at its
+// overlook, where most lights are culled.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -50,17 +51,30 @@ inline std::unique_ptr<Input> view_input(uint32_t count, unsigned threads) {
   return std::make_unique<Input>(lights, camera, threads);
 }
 
-inline std::unique_ptr<Input> canyon_input(uint32_t count, unsigned threads) {
-  static const Scene scene = [] {
-    SceneSpec spec;
-    spec.procedural = "canyon";
-    return load_scene(spec);
-  }();
+inline Scene procedural(const char* name) {
+  SceneSpec spec;
+  spec.procedural = name;
+  return load_scene(spec);
+}
+
+// The level's own lights (fewer are larger, so that each point has as many), from one place of its path.
+inline std::unique_ptr<Input> level_input(const Scene& scene, uint32_t count, unsigned threads,
+                                          uint32_t frame) {
   LightSpec spec;
   spec.count = count;
   LightSet set(spec, scene);
-  Camera camera = scene.path("default").sample(90, 120, width, height, scene.near, scene.far);
+  Camera camera = scene.path("default").sample(frame, 120, width, height, scene.near, scene.far);
   return std::make_unique<Input>(set.base(), camera, threads);
+}
+
+inline std::unique_ptr<Input> canyon_input(uint32_t count, unsigned threads) {
+  static const Scene scene = procedural("canyon");
+  return level_input(scene, count, threads, 90);
+}
+
+inline std::unique_ptr<Input> citadel_input(uint32_t count, unsigned threads) {
+  static const Scene scene = procedural("citadel");
+  return level_input(scene, count, threads, 30);
 }
 
 class PlainMemory final : public UploadMemory {

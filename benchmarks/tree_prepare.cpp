@@ -63,6 +63,8 @@ BENCHMARK_CAPTURE(fast, hybrid_view_two_threads, view_input, 2u, false)->SIZES->
 BENCHMARK_CAPTURE(plain_scalar, hybrid_canyon, canyon_input, false)->SIZES;
 BENCHMARK_CAPTURE(fast, hybrid_canyon, canyon_input, 1u, false)->SIZES;
 BENCHMARK_CAPTURE(fast, hybrid_canyon_two_threads, canyon_input, 2u, false)->SIZES->UseRealTime();
+BENCHMARK_CAPTURE(plain_scalar, hybrid_citadel, citadel_input, false)->SIZES;
+BENCHMARK_CAPTURE(fast, hybrid_citadel, citadel_input, 1u, false)->SIZES;
 BENCHMARK_CAPTURE(plain_scalar, light_tree_canyon, canyon_input, true)->SIZES;
 BENCHMARK_CAPTURE(fast, light_tree_canyon, canyon_input, 1u, true)->SIZES;
 
