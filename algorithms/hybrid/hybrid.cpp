@@ -42,7 +42,7 @@ AlgorithmEntry hybrid_entry() {
       "a froxel is a tree when its lights' clipped depth extents are on average below this part of its own "
       "(listing 2: 0.5, the text: 1)"));
   entry.parameters.push_back(ParameterInfo::integer(
-      "list_lights", 32, 0, 4096,
+      "list_lights", 24, 0, 4096,
       "a froxel of no more lights is a list whatever their extents; 0: as the paper, those of one leaf"));
   entry.parameters.push_back(ParameterInfo::boolean(
       "list_case", false, "subgroups that walk nothing but lists have a loop of their own (section 3.4)"));
