@@ -110,16 +110,20 @@ bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
   result.strength = REAL(0);
   const uint id = light.id_shape & ML_LIGHT_ID_MASK;
   const bool probe = is_probe(light);
-  const bool wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
+  const bool spot = is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT), wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
+  const bool capsule = is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE), box = is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX);
+  // Once, for all that ask for it: where lanes run in step every question would be a fetch.
+  LightExtra extra;
+  if (spot || wedge || capsule || box) extra = extra_at(id);
   precise REAL dx = REAL(light.position.x) - REAL(point.position.x);
   precise REAL dy = REAL(light.position.y) - REAL(point.position.y);
   precise REAL dz = REAL(light.position.z) - REAL(point.position.z);
-  if (wedge || is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE)) to_segment(extra_at(id), dx, dy, dz);
+  if (wedge || capsule) to_segment(extra, dx, dy, dz);
   precise REAL distance_squared = dx * dx + dy * dy + dz * dz;
   precise REAL window;
-  if (is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) {
+  if (box) {
     REAL product;
-    if (!in_box(extra_at(id), dx, dy, dz, product)) return false;
+    if (!in_box(extra, dx, dy, dz, product)) return false;
     window = product;
   } else {
     precise REAL radius_squared = REAL(light.radius) * REAL(light.radius);
@@ -140,8 +144,7 @@ bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
     result.cosine = probe ? REAL(1) : min(projected * inverse, REAL(1));
   }
   result.strength = window * window / (probe ? REAL(1) : max(distance_squared, REAL(min_distance_squared)));
-  if (wedge || is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT)) {
-    LightExtra extra = extra_at(id);
+  if (wedge || spot) {
     // 1 - cos as half the square of the chord between the two directions. The rounding of their lengths is along the chord's normal and
     // falls away; a difference of cosines would leave few digits where a narrow cone's edge is all that lights a pixel.
     precise REAL chord_x = result.direction.x + REAL(extra.direction.x);
