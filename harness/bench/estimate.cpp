@@ -12,7 +12,7 @@ namespace {
 
 // Seconds per unit on two cores of the software device, from the spans of runs of `quick` and `light_counts`
 // (harness.spans_ms over pixels, lights and laps).
-constexpr double per_shaded_pixel = 0.064e-6;  // list walk and shading of a handful of lights
+constexpr double per_shaded_pixel = 0.04e-6;   // list walk and shading of a handful of lights
 constexpr double per_frame_pixel = 0.8e-6;     // g-buffer, and finding the contributing lights of a pixel:
 constexpr double per_pixel_light = 0.06e-9;    // more of it with more lights
 constexpr double per_light = 0.04e-6;          // script, upload, prepare
