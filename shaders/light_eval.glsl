@@ -27,14 +27,15 @@ layout(scalar, binding = BIND_EXTRAS) readonly buffer Extras { LightExtra extras
 QUADS(LightsQuads, BIND_LIGHTS);
 QUADS(ExtrasQuads, BIND_EXTRAS);
 
-LightCore light_from_quads(uvec4 a, uvec4 b) {
+LightCore light_of_quads(usamplerBuffer quads, uint light) {
+  const int quad = int(2u * light);
+  const uvec4 a = texelFetch(quads, quad), b = texelFetch(quads, quad + 1);
   return LightCore(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), b.w);
 }
 
 LightCore light_at(uint light) {
-  if (!TEXEL_FETCH) return lights[light];
-  const int quad = int(2u * light);
-  return light_from_quads(texelFetch(LightsQuads, quad), texelFetch(LightsQuads, quad + 1));
+  if (TEXEL_FETCH) return light_of_quads(LightsQuads, light);
+  return lights[light];
 }
 
 LightExtra extra_at(uint light) {

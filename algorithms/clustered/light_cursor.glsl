@@ -47,9 +47,8 @@ uint run_light(uint place) { return DUPLICATED ? place : froxel_indices[place]; 
 
 LightCore cursor_light(uint light) {
   if (!DUPLICATED) return light_at(light);
-  if (!TEXEL_FETCH) return froxel_lights[light];
-  const int quad = int(2u * light);
-  return light_from_quads(texelFetch(DuplicatesQuads, quad), texelFetch(DuplicatesQuads, quad + 1));
+  if (TEXEL_FETCH) return light_of_quads(DuplicatesQuads, light);
+  return froxel_lights[light];
 }
 #define CURSOR_LIGHT(light) cursor_light(light)
 #define CURSOR_MORE(cursor) ((cursor).next < (cursor).end)

@@ -58,14 +58,16 @@ LightHull light_hull(LightCore light, bool narrowed) {
   if (wedge || is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT)) {
     cone_hull(light, extra_at(id), wedge, narrowed, hull);
   } else if (is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE)) {
-    hull.w = to_view(extra_at(id).side);
+    const LightExtra extra = extra_at(id);
+    hull.w = to_view(extra.side);
     hull.u = any_across(hull.w);
-    hull.high += extra_at(id).half_length;
+    hull.high += extra.half_length;
     hull.low = -hull.high;
   } else if (is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) {
-    const vec3 half_extents = box_half_extents(extra_at(id));
-    hull.w = to_view(extra_at(id).direction);
-    hull.u = to_view(extra_at(id).side);
+    const LightExtra extra = extra_at(id);
+    const vec3 half_extents = box_half_extents(extra);
+    hull.w = to_view(extra.direction);
+    hull.u = to_view(extra.side);
     hull.high = half_extents.z;
     hull.low = -hull.high;
     hull.base = hull.top = half_extents.xy;

@@ -100,7 +100,7 @@ class LightBvh final : public Algorithm {
 
 // Measured on canyon, arena and plane: nodes that a pixel looks at grow with the logarithm of the lights.
 double walk_seconds(const Parameters& p, uint32_t width, uint32_t height, uint32_t lights) {
-  constexpr double node = 1.5e-9, nodes_a_level = 5, refitted = 0.15e-6, rebuilt = 0.6e-6;
+  constexpr double node = 0.5e-9, nodes_a_level = 5, refitted = 0.15e-6, rebuilt = 0.6e-6;
   const double nodes = nodes_a_level * std::log2(1.0 + lights);
   return width * node * height * nodes + lights * (p.choice("update") == "refit" ? refitted : rebuilt);
 }

@@ -49,9 +49,11 @@ LightCursor cell_begin(uint cell, float depth, bool counted) {
     // Nodes that stand side by side: one tree, or the leaves of one list.
     uint listed = last - next;
     bool tree = false;
-    for (uint n = node; n < end; n += tree_skip(tree_node(n))) {
-      tree = !tree_is_leaf(tree_node(n));
-      listed += tree ? tree_node(n).first_or_below : tree_leaf_lights(tree_node(n));
+    for (uint n = node; n < end;) {
+      const TreeNode at = tree_node(n);
+      tree = !tree_is_leaf(at);
+      listed += tree ? at.first_or_below : tree_leaf_lights(at);
+      n += tree_skip(at);
     }
     COUNT_LISTED(listed);
     COUNT_TRAVERSAL(tree ? 1u : 0u);

@@ -28,34 +28,6 @@ void upload(gpu::UploadBuffer& buffer, std::span<const Element> elements) {
 
 }  // namespace
 
-bool Effects::fetches_texels(const gpu::Device& device) const {
-  return texel_fetch.value_or(device.info().is_software() &&
-                              device.limits().texel_buffer_bytes >= device.limits().storage_buffer_range);
-}
-
-std::vector<std::string> Effects::names(const gpu::Device& device) const {
-  std::vector<std::string> list{"omni"};
-  if (spots) list.emplace_back("spot");
-  if (capsules) list.emplace_back("capsule");
-  if (wedges) list.emplace_back("wedge");
-  if (boxes) list.emplace_back("box");
-  if (probes) list.emplace_back("probe");
-  if (specular) list.emplace_back("specular");
-  if (alpha_mask) list.emplace_back("alpha_mask");
-  if (forward) list.emplace_back("forward");
-  if (split_targets) list.emplace_back("split_targets");
-  if (shadow_maps) list.emplace_back("shadow_maps");
-  if (compute_lists) list.emplace_back("compute_lists");
-  if (fetches_texels(device)) list.emplace_back("texel_fetch");
-  if (long_lists) list.emplace_back("long_lists");
-  return list;
-}
-
-std::vector<gpu::Constant> Effects::constants(const gpu::Device& device) const {
-  return {{0, spots},  {1, specular}, {3, long_lists}, {4, capsules},
-          {5, wedges}, {6, boxes},    {10, probes},    {12, fetches_texels(device)}};
-}
-
 struct DeviceFrame::ContributingPasses {
   gpu::ComputeProgram bounds, masks, count, fill;
   gpu::Image count_image, hash_image;
@@ -105,12 +77,9 @@ DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const Effects&
 DeviceFrame::~DeviceFrame() = default;
 
 void DeviceFrame::load(const FrameInput& input) {
-  const uint64_t texel_bytes = std::max(input.lights.core.size_bytes(), input.lights.extra.size_bytes());
-  if (effects_.fetches_texels(device_) && texel_bytes > device_.limits().texel_buffer_bytes)
-    throw SystemError(fmt::format(
-        "{} lights need a texel buffer of {} bytes, the device's holds {}; shading.light_fetch=storage needs "
-        "none",
-        input.lights.count(), texel_bytes, device_.limits().texel_buffer_bytes));
+  if (effects_.fetches_texels(device_))
+    require_texels(device_.limits(), fmt::format("{} lights", input.lights.count()),
+                   std::max(input.lights.core.size_bytes(), input.lights.extra.size_bytes()));
   std::memcpy(view_.mapped().data(), &input.view, sizeof input.view);
   upload(lights_, input.lights.core);
   upload(extras_, input.lights.extra);
@@ -141,9 +110,7 @@ const CounterTargets& DeviceFrame::counters() {
 }
 
 void DeviceFrame::clear_counters() {
-  for (const gpu::Image* image : {&counters_->listed, &counters_->tested, &counters_->contributing,
-                                  &counters_->nodes, &counters_->hash, &counters_->traversal})
-    commands_.clear(*image);
+  for (const auto& [name, image] : counters_->named()) commands_.clear(*image);
 }
 
 gpu::Bindings DeviceFrame::bindings() const {
@@ -160,11 +127,7 @@ gpu::Bindings DeviceFrame::bindings() const {
                      {"ListOffsets", passes_->offsets},
                      {"ListIndices", *passes_->indices}};
   if (counters_)
-    for (gpu::Binding binding :
-         {gpu::Binding{"Listed", counters_->listed}, gpu::Binding{"Tested", counters_->tested},
-          gpu::Binding{"Contributing", counters_->contributing}, gpu::Binding{"Nodes", counters_->nodes},
-          gpu::Binding{"Hash", counters_->hash}, gpu::Binding{"Traversal", counters_->traversal}})
-      list.push_back(binding);
+    for (const auto& [name, image] : counters_->named()) list.emplace_back(name, *image);
   return list;
 }
 

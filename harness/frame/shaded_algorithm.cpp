@@ -1,7 +1,5 @@
 #include "harness/frame/shaded_algorithm.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstring>
 #include <tuple>
@@ -110,12 +108,7 @@ bool ShadedAlgorithm::walks_far(const DeviceFrame& frame, const FrameInput& inpu
 }
 
 std::span<std::byte> ShadedAlgorithm::map(uint32_t slot, size_t bytes) {
-  const uint64_t texel_bytes = device_.limits().texel_buffer_bytes;
-  if (effects_.fetches_texels(device_) && bytes > texel_bytes)
-    throw SystemError(
-        fmt::format("{} needs a texel buffer of {} bytes, the device's holds {}; "
-                    "shading.light_fetch=storage needs none",
-                    buffers_.at(slot).name(), bytes, texel_bytes));
+  if (effects_.fetches_texels(device_)) require_texels(device_.limits(), buffers_.at(slot).name(), bytes);
   return buffers_.at(slot).map(bytes);
 }
 

@@ -1,7 +1,9 @@
 // The pictures of one resolution on the device.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <utility>
 
 #include "harness/gpu/resources.h"
 
@@ -40,6 +42,15 @@ struct CounterTargets {
         nodes(counter(device, width, height, "nodes")),
         hash(counter(device, width, height, "hash")),
         traversal(counter(device, width, height, "traversal")) {}
+  // As shaders bind them.
+  std::array<std::pair<const char*, const gpu::Image*>, 6> named() const {
+    return {{{"Listed", &listed},
+             {"Tested", &tested},
+             {"Contributing", &contributing},
+             {"Nodes", &nodes},
+             {"Hash", &hash},
+             {"Traversal", &traversal}}};
+  }
 
  private:
   static gpu::Image counter(gpu::Device& device, uint32_t width, uint32_t height, const char* name) {

@@ -41,7 +41,7 @@ vk::DescriptorSet Commands::Impl::bind(const Layout& layout, const Bindings& bin
       write.pBufferInfo = &buffers.emplace_back(*found->buffer->impl().buffer, 0, VK_WHOLE_SIZE);
     } else if (slot.type == vk::DescriptorType::eUniformTexelBuffer) {
       if (!found->buffer) throw std::logic_error(fmt::format("{}: '{}' is a buffer", program, name));
-      if (found->buffer->bytes() < 16)
+      if (found->buffer->bytes() < quad_bytes)
         throw std::logic_error(fmt::format("{}: '{}' has no four words", program, name));
       write.pTexelBufferView = &texels.emplace_back(*found->buffer->impl().quads);
     } else {

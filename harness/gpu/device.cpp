@@ -211,7 +211,7 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, const QueueCh
   const vk::PhysicalDeviceLimits& limits = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
   DeviceLimits result;
   result.storage_buffer_range = limits.maxStorageBufferRange;
-  result.texel_buffer_bytes = uint64_t{limits.maxTexelBufferElements} * 16;
+  result.texel_buffer_bytes = uint64_t{limits.maxTexelBufferElements} * quad_bytes;
   result.image_size =
       std::min(limits.maxImageDimension2D, std::min(limits.maxFramebufferWidth, limits.maxFramebufferHeight));
   result.group_count = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],

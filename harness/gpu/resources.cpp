@@ -11,8 +11,6 @@ namespace {
 
 using Property = vk::MemoryPropertyFlagBits;
 
-constexpr size_t quad_bytes = 16;
-
 // The first memory type allowed by `bits` that has all of one of the wishes, tried in order.
 uint32_t memory_type(const Device::Impl& device, uint32_t bits,
                      std::initializer_list<vk::MemoryPropertyFlags> wishes) {

@@ -47,6 +47,9 @@ struct Device::Impl {
   bool validation = false;
 };
 
+// A texel of four words.
+inline constexpr size_t quad_bytes = 16;
+
 struct Buffer::Impl {
   vk::raii::DeviceMemory memory = nullptr;
   vk::raii::Buffer buffer = nullptr;

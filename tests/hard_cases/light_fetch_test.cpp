@@ -47,14 +47,5 @@ TEST_F(LightFetch, OneLightAndNone) {
   texels.expect_trials(camera, {}, every_algorithm(), 0);
 }
 
-TEST_F(LightFetch, SoftwareDevicesFetchTexelsUnlessTold) {
-  const Effects effects;
-  EXPECT_EQ(effects.fetches_texels(device()),
-            device().info().is_software() &&
-                device().limits().texel_buffer_bytes >= device().limits().storage_buffer_range);
-  EXPECT_TRUE(fetched(true, false).fetches_texels(device()));
-  EXPECT_FALSE(fetched(false, false).fetches_texels(device()));
-}
-
 }  // namespace
 }  // namespace ml::test

@@ -1,0 +1,43 @@
+#include "harness/frame/effects.h"
+
+#include <fmt/format.h>
+
+#include "harness/base/error.h"
+
+namespace ml {
+
+bool Effects::fetches_texels(const gpu::DeviceInfo& info, const gpu::DeviceLimits& limits) const {
+  return texel_fetch.value_or(info.is_software() && limits.texel_buffer_bytes >= limits.storage_buffer_range);
+}
+
+std::vector<std::string> Effects::names(const gpu::Device& device) const {
+  std::vector<std::string> list{"omni"};
+  if (spots) list.emplace_back("spot");
+  if (capsules) list.emplace_back("capsule");
+  if (wedges) list.emplace_back("wedge");
+  if (boxes) list.emplace_back("box");
+  if (probes) list.emplace_back("probe");
+  if (specular) list.emplace_back("specular");
+  if (alpha_mask) list.emplace_back("alpha_mask");
+  if (forward) list.emplace_back("forward");
+  if (split_targets) list.emplace_back("split_targets");
+  if (shadow_maps) list.emplace_back("shadow_maps");
+  if (compute_lists) list.emplace_back("compute_lists");
+  if (fetches_texels(device)) list.emplace_back("texel_fetch");
+  if (long_lists) list.emplace_back("long_lists");
+  return list;
+}
+
+std::vector<gpu::Constant> Effects::constants(const gpu::Device& device) const {
+  return {{0, spots},  {1, specular}, {3, long_lists}, {4, capsules},
+          {5, wedges}, {6, boxes},    {10, probes},    {12, fetches_texels(device)}};
+}
+
+void require_texels(const gpu::DeviceLimits& limits, const std::string& what, uint64_t bytes) {
+  if (bytes > limits.texel_buffer_bytes)
+    throw SystemError(fmt::format(
+        "{}: {} bytes, a texel buffer of the device shows {}; shading.light_fetch=storage needs none", what,
+        bytes, limits.texel_buffer_bytes));
+}
+
+}  // namespace ml
