@@ -112,9 +112,26 @@ vec2 ball_interval(float a, float z, float radius) {
   return vec2(low_seen ? low_a / low_z : (a - chord) / view.near, high_seen ? high_a / high_z : (a + chord) / view.near);
 }
 
+// The smallest ball around a light, in view space: the apex of a cone lies on it or in it, and not in its middle.
+void bounding_ball(LightCore light, out vec3 centre, out float radius) {
+  centre = to_view(light.position);
+  radius = light_bound(light);
+  const bool wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
+  if (!wedge && !is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT)) return;
+  const LightExtra extra = extra_at(light.id_shape & ML_LIGHT_ID_MASK);
+  const float cosine = extra.cos_outer - cone_margin;
+  if (cosine <= 0.0) return;
+  const bool narrow = cosine * cosine > 0.5;
+  const float ahead = narrow ? 0.5 * light.radius / cosine : light.radius * cosine;
+  centre += to_view(extra.direction) * ahead;
+  radius = (narrow ? ahead : light.radius * sqrt(1.0 - cosine * cosine)) + (wedge ? extra.half_length : 0.0);
+}
+
 WindowBounds ball_bounds(LightCore light) {
-  const float radius = light_bound(light) * 1.00002 + hull_absolute * sum_of_sizes(light.position) + hull_least;
-  const vec3 centre = to_view(light.position);
+  vec3 centre;
+  float radius;
+  bounding_ball(light, centre, radius);
+  radius = radius * 1.00002 + hull_absolute * sum_of_sizes(light.position) + hull_least;
   vec2 across = vec2(centre.x - radius, centre.x + radius), up = vec2(centre.y - radius, centre.y + radius);
   if (view.orthographic == 0u) {
     across = ball_interval(centre.x, centre.z, radius);

@@ -128,8 +128,8 @@ AlgorithmEntry fine_pruned_entry() {
                             "lists by true volumes against pixels (section 2.4), by screen bounds alone, or "
                             "by true volumes and the way surfaces face"),
       ParameterInfo::choice("bounds", "hull", {"hull", "box", "ball"},
-                            "screen bounds of a light's narrowed hull and its ball, of a straight box "
-                            "and its ball, or of its ball (sections 2.2 and 2.4)"),
+                            "screen bounds of a light's narrowed hull and its smallest ball, of a straight "
+                            "box and that ball, or of the ball alone (sections 2.2 and 2.4)"),
       ParameterInfo::boolean("tile_depths", true,
                              "coarse lists by the least and greatest depth of a tile too, or by its "
                              "rectangle alone (section 2.3)"),

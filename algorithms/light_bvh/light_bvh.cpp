@@ -36,7 +36,7 @@ class LightBvh final : public Algorithm {
     {
       auto span = spans.span("build");
       update(frame);
-      packing_.build(tree_, frame.lights, visible_);
+      packing_.build(tree_, visible_);
     }
     auto span = spans.span("upload");
     const auto nodes = packing_.nodes();
@@ -81,7 +81,7 @@ class LightBvh final : public Algorithm {
       tree_.build(frame.lights);
     } else {
       tree_.follow(frame.lights);
-      if (next_frame) tree_.reinsert(frame.lights, frame.index % reinsertion_period, reinsertion_period);
+      if (next_frame) tree_.reinsert(frame.index % reinsertion_period, reinsertion_period);
     }
     built_ = true;
     last_frame_ = frame.index;

@@ -3,54 +3,76 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/froxels/froxel_grid.h"
+
 namespace ml {
 namespace {
 
-// Rounding of camera-relative coordinates and of distances in the shader (as
-// algorithms/froxels/froxel_grid.h).
+// What rounding of distances in the shader may take, and what it takes here.
 float widened(const glm::vec3& center, float radius) {
-  return radius * 1.00001f + 2e-6f * (std::abs(center.x) + std::abs(center.y) + std::abs(center.z));
+  return radius * widen_relative +
+         widen_absolute * (std::abs(center.x) + std::abs(center.y) + std::abs(center.z));
+}
+
+// The ball that holds the balls of these nodes, which stand from place `first` on, around the middle of their
+// box.
+PackedNode around_balls(std::span<const PackedNode> nodes, uint32_t first) {
+  const uint32_t end = first + static_cast<uint32_t>(nodes.size());
+  const auto each = [&](auto&& take) {
+    for (uint32_t node = first; node < end; node = nodes[node - first].miss) take(nodes[node - first]);
+  };
+  PackedNode ball;
+  VolumeBox box{nodes[0].center - nodes[0].radius, nodes[0].center + nodes[0].radius};
+  each([&](const PackedNode& n) { box = around(box, {n.center - n.radius, n.center + n.radius}); });
+  ball.center = box.low * 0.5f + box.high * 0.5f;
+  each([&](const PackedNode& n) {
+    ball.radius = std::max(ball.radius, glm::distance(ball.center, n.center) + n.radius);
+  });
+  return ball;
+}
+
+PackedNode around_box(const VolumeBox& box) {
+  PackedNode ball;
+  ball.center = box.low * 0.5f + box.high * 0.5f;
+  ball.radius = 0.5f * glm::distance(box.low, box.high);
+  return ball;
 }
 
 }  // namespace
 
-void SpherePacking::pack(const SphereTree& tree, const FrameLights& lights, uint32_t node) {
+VolumeBox SpherePacking::pack(const SphereTree& tree, uint32_t node) {
   const SphereTree::Node& n = tree[node];
   if (n.light != SphereTree::none) {
-    const glm::vec3 center(lights.x[n.light], lights.y[n.light], lights.z[n.light]);
-    const auto next = static_cast<uint32_t>(nodes_.size() + 1);
-    nodes_.push_back({center, widened(center, lights.radius[n.light]), next, n.light});
-    return;
+    const LightVolume& volume = tree.volume(n.light);
+    nodes_.push_back({volume.center, volume.radius, static_cast<uint32_t>(nodes_.size() + 1), n.light});
+    return volume.box;
   }
   uint32_t kept = 0, only = 0;
   for (uint32_t c = 0; c < n.children; ++c)
     if (visible_below_[n.child[c]] > 0) ++kept, only = n.child[c];
-  if (kept == 1) return pack(tree, lights, only);
+  if (kept == 1) return pack(tree, only);
   const size_t place = nodes_.size();
   nodes_.emplace_back();
-  for (uint32_t c = 0; c < n.children; ++c)
-    if (visible_below_[n.child[c]] > 0) pack(tree, lights, n.child[c]);
-  // A ball around the balls of the children, which stand behind this node, each where the last one's miss
-  // leads. Its centre is that of the box around them.
-  const auto end = static_cast<uint32_t>(nodes_.size());
-  glm::vec3 low(nodes_[place + 1].center - nodes_[place + 1].radius), high(low);
-  for (uint32_t child = static_cast<uint32_t>(place) + 1; child < end; child = nodes_[child].miss) {
-    low = glm::min(low, nodes_[child].center - nodes_[child].radius);
-    high = glm::max(high, nodes_[child].center + nodes_[child].radius);
+  VolumeBox box;
+  bool first = true;
+  for (uint32_t c = 0; c < n.children; ++c) {
+    if (visible_below_[n.child[c]] == 0) continue;
+    const VolumeBox child = pack(tree, n.child[c]);
+    box = first ? child : around(box, child);
+    first = false;
   }
-  PackedNode packed;
-  packed.center = low * 0.5f + high * 0.5f;
-  for (uint32_t child = static_cast<uint32_t>(place) + 1; child < end; child = nodes_[child].miss)
-    packed.radius =
-        std::max(packed.radius, glm::distance(packed.center, nodes_[child].center) + nodes_[child].radius);
+  // The children stand behind this node, each where the last one's miss leads.
+  const std::span<const PackedNode> below = std::span(nodes_).subspan(place + 1);
+  PackedNode packed = around_balls(below, static_cast<uint32_t>(place) + 1);
+  if (const PackedNode ball = around_box(box); ball.radius < packed.radius) packed = ball;
   packed.radius = widened(packed.center, packed.radius);
-  packed.miss = end;
+  packed.miss = static_cast<uint32_t>(nodes_.size());
   packed.light = packed_inner;
   nodes_[place] = packed;
+  return box;
 }
 
-void SpherePacking::build(const SphereTree& tree, const FrameLights& lights,
-                          std::span<const uint8_t> visible) {
+void SpherePacking::build(const SphereTree& tree, std::span<const uint8_t> visible) {
   nodes_.clear();
   if (tree.root() == SphereTree::none) return;
   uint32_t highest = 0;
@@ -61,7 +83,7 @@ void SpherePacking::build(const SphereTree& tree, const FrameLights& lights,
     if (n.light != SphereTree::none) visible_below_[node] = visible[n.light];
     for (uint32_t c = 0; c < n.children; ++c) visible_below_[node] += visible_below_[n.child[c]];
   }
-  if (visible_below_[tree.root()] > 0) pack(tree, lights, tree.root());
+  if (visible_below_[tree.root()] > 0) pack(tree, tree.root());
 }
 
 }  // namespace ml

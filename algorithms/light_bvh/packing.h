@@ -21,11 +21,12 @@ inline constexpr uint32_t packed_inner = 0xffffffffu;
 class SpherePacking {
  public:
   // `visible`: a flag for each light.
-  void build(const SphereTree& tree, const FrameLights& lights, std::span<const uint8_t> visible);
+  void build(const SphereTree& tree, std::span<const uint8_t> visible);
   std::span<const PackedNode> nodes() const { return nodes_; }
 
  private:
-  void pack(const SphereTree& tree, const FrameLights& lights, uint32_t node);
+  // Returns the box around the visible lights below.
+  VolumeBox pack(const SphereTree& tree, uint32_t node);
 
   std::vector<PackedNode> nodes_;
   std::vector<uint32_t> visible_below_;  // per tree node

@@ -7,21 +7,10 @@
 namespace ml {
 namespace {
 
-using Box = SphereTree::Box;
-
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-Box empty_box() {
+VolumeBox empty_box() {
   return {glm::vec3(infinity), glm::vec3(-infinity)};
-}
-
-Box around(const Box& a, const Box& b) {
-  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
-}
-
-Box box_of(const FrameLights& lights, uint32_t light) {
-  glm::vec3 center(lights.x[light], lights.y[light], lights.z[light]);
-  return {center - lights.radius[light], center + lights.radius[light]};
 }
 
 uint32_t identity_of(const FrameLights& lights, uint32_t light) {
@@ -41,11 +30,6 @@ constexpr uint32_t gone = SphereTree::none - 1;
 
 }  // namespace
 
-float SphereTree::Box::area() const {
-  glm::vec3 size = glm::max(high - low, glm::vec3(0));
-  return size.x * size.y + size.y * size.z + size.z * size.x;
-}
-
 uint32_t SphereTree::new_node() {
   if (free_.empty()) {
     nodes_.emplace_back();
@@ -62,13 +46,11 @@ uint32_t SphereTree::build_range(const FrameLights& lights, uint32_t begin, uint
   if (end - begin == 1) {
     const uint32_t light = items_[begin];
     nodes_[node].light = light;
-    nodes_[node].box = box_of(lights, light);
+    nodes_[node].box = volumes_[light].box;
     leaf_of_light_[identity_of(lights, light)] = node;
     return node;
   }
-  auto center = [&](uint32_t light, int axis) {
-    return axis == 0 ? lights.x[light] : axis == 1 ? lights.y[light] : lights.z[light];
-  };
+  auto center = [&](uint32_t light, int axis) { return volumes_[light].center[axis]; };
   glm::vec3 low(infinity), high(-infinity);
   for (uint32_t i = begin; i < end; ++i)
     for (int axis = 0; axis < 3; ++axis) {
@@ -84,16 +66,16 @@ uint32_t SphereTree::build_range(const FrameLights& lights, uint32_t begin, uint
   };
   for (int axis = 0; depth < deepest_split && axis < 3; ++axis) {
     if (!(high[axis] - low[axis] > 1e-6f * (std::abs(high[axis]) + std::abs(low[axis])))) continue;
-    std::array<Box, bins> boxes;
+    std::array<VolumeBox, bins> boxes;
     std::array<uint32_t, bins> counts{};
     boxes.fill(empty_box());
     for (uint32_t i = begin; i < end; ++i) {
       const uint32_t bin = bin_of(items_[i], axis);
-      boxes[bin] = around(boxes[bin], box_of(lights, items_[i]));
+      boxes[bin] = around(boxes[bin], volumes_[items_[i]].box);
       ++counts[bin];
     }
     std::array<float, bins> right{};
-    Box box = empty_box();
+    VolumeBox box = empty_box();
     uint32_t count = 0;
     for (uint32_t bin = bins; bin-- > 1;) {
       box = around(box, boxes[bin]);
@@ -170,6 +152,7 @@ void SphereTree::list_bottom_up() {
 }
 
 void SphereTree::build(const FrameLights& lights) {
+  find_volumes(lights, volumes_);
   lights_ = static_cast<uint32_t>(lights.count());
   nodes_.clear();
   free_.clear();
@@ -181,6 +164,7 @@ void SphereTree::build(const FrameLights& lights) {
     // For those that will come, too.
     for (std::vector<uint32_t>* list : {&free_, &order_, &stack_}) list->reserve(2 * leaf_of_light_.size());
     nodes_.reserve(2 * leaf_of_light_.size());
+    volumes_.reserve(leaf_of_light_.size());
     root_ = build_range(lights, 0, lights_, 0);
     if (nodes_[root_].light == none) collapse(root_);
   }
@@ -208,6 +192,7 @@ void SphereTree::follow(const FrameLights& lights) {
   }
   const uint32_t came = count - stay, went = lights_ - stay;
   if (came + went > stay) return build(lights);
+  find_volumes(lights, volumes_);
   lights_ = count;
   if (went > 0)
     for (uint32_t& leaf : leaf_of_light_) {
@@ -217,24 +202,24 @@ void SphereTree::follow(const FrameLights& lights) {
       leaf = none;
     }
   if (went > 0) list_bottom_up();
-  refit(lights);
+  refit();
   if (came == 0) return;
   for (uint32_t light = 0; light < count; ++light) {
     uint32_t& leaf = leaf_of_light_[identity_of(lights, light)];
     if (leaf != none) continue;
     leaf = new_node();
     nodes_[leaf].light = light;
-    nodes_[leaf].box = box_of(lights, light);
+    nodes_[leaf].box = volumes_[light].box;
     insert(leaf);
   }
   list_bottom_up();
-  refit(lights);
+  refit();
 }
 
-void SphereTree::refit(const FrameLights& lights) {
+void SphereTree::refit() {
   for (uint32_t node : order_) {
     if (nodes_[node].light != none)
-      nodes_[node].box = box_of(lights, nodes_[node].light);
+      nodes_[node].box = volumes_[nodes_[node].light].box;
     else
       fit(node);
   }
@@ -267,7 +252,7 @@ void SphereTree::remove(uint32_t leaf) {
 // takes the light as a child, for the price of one more test; a full one, or a leaf, shares a new node with
 // it.
 void SphereTree::insert(uint32_t leaf) {
-  const Box box = nodes_[leaf].box;
+  const VolumeBox box = nodes_[leaf].box;
   uint32_t node = root_;
   while (true) {
     nodes_[node].box = around(nodes_[node].box, box);
@@ -275,7 +260,7 @@ void SphereTree::insert(uint32_t leaf) {
     uint32_t best = none;
     float best_cost = infinity;
     for (uint32_t c = 0; c < nodes_[node].children; ++c) {
-      const Box& child = nodes_[nodes_[node].child[c]].box;
+      const VolumeBox& child = nodes_[nodes_[node].child[c]].box;
       const float cost = around(child, box).area() - child.area();
       if (best == none || cost < best_cost) best = nodes_[node].child[c], best_cost = cost;
     }
@@ -305,7 +290,7 @@ void SphereTree::insert(uint32_t leaf) {
   nodes_[node].parent = nodes_[leaf].parent = pair;
 }
 
-void SphereTree::reinsert(const FrameLights& lights, uint32_t first, uint32_t stride) {
+void SphereTree::reinsert(uint32_t first, uint32_t stride) {
   if (lights_ < 3) return;
   for (size_t identity = first; identity < leaf_of_light_.size(); identity += stride) {
     const uint32_t leaf = leaf_of_light_[identity];
@@ -314,7 +299,7 @@ void SphereTree::reinsert(const FrameLights& lights, uint32_t first, uint32_t st
     insert(leaf);
   }
   list_bottom_up();
-  refit(lights);
+  refit();
 }
 
 }  // namespace ml

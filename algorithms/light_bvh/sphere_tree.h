@@ -1,6 +1,6 @@
-// A tree over the balls of lights with 2 to 8 children a node, kept from frame to frame: built afresh by the
-// surface area heuristic, or refitted to where lights have moved and repaired by inserting some of them anew
-// (after J. Bittner, M. Hapala, V. Havran, "Fast Insertion-Based Optimization of Bounding Volume
+// A tree over the volumes of lights with 2 to 8 children a node, kept from frame to frame: built afresh by
+// the surface area heuristic, or refitted to where lights have moved and repaired by inserting some of them
+// anew (after J. Bittner, M. Hapala, V. Havran, "Fast Insertion-Based Optimization of Bounding Volume
 // Hierarchies", CGF 32(1), 2013, which the post's reference [1] is; there the worst nodes are chosen, here
 // every light in its turn).
 #pragma once
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "algorithms/algorithm.h"
+#include "algorithms/light_bvh/light_volumes.h"
 
 namespace ml {
 
@@ -18,12 +19,8 @@ class SphereTree {
  public:
   static constexpr uint32_t most_children = 8, none = 0xffffffffu;
 
-  struct Box {
-    glm::vec3 low{0}, high{0};
-    float area() const;
-  };
   struct Node {
-    Box box;
+    VolumeBox box;
     uint32_t parent = none;
     uint32_t light = none;  // leaf
     uint32_t children = 0;
@@ -39,13 +36,14 @@ class SphereTree {
   // get new bounds, those that came are inserted where each costs least. Built afresh when more came and went
   // than stayed; a tree that was never built has no lights.
   void follow(const FrameLights& lights);
-  // Takes lights out whose identity is first, first + stride, ... and inserts each where it costs least. The
-  // lights must be those of the last build() or follow().
-  void reinsert(const FrameLights& lights, uint32_t first, uint32_t stride);
+  // Takes lights out whose identity is first, first + stride, ... and inserts each where it costs least.
+  void reinsert(uint32_t first, uint32_t stride);
 
   uint32_t root() const { return root_; }  // none: no lights
   uint32_t lights() const { return lights_; }
   const Node& operator[](uint32_t node) const { return nodes_[node]; }
+  // Of a light of the last build() or follow().
+  const LightVolume& volume(uint32_t light) const { return volumes_[light]; }
   // Nodes, children before their parent.
   const std::vector<uint32_t>& bottom_up() const { return order_; }
 
@@ -53,7 +51,7 @@ class SphereTree {
   uint32_t new_node();
   uint32_t build_range(const FrameLights& lights, uint32_t begin, uint32_t end, uint32_t depth);
   void collapse(uint32_t node);
-  void refit(const FrameLights& lights);
+  void refit();
   void remove(uint32_t leaf);
   void insert(uint32_t leaf);
   void fit(uint32_t node);
@@ -62,6 +60,7 @@ class SphereTree {
   uint32_t branching_;
   uint32_t root_ = none, lights_ = 0;
   std::vector<Node> nodes_;
+  std::vector<LightVolume> volumes_;
   std::vector<uint32_t> free_, leaf_of_light_ /* by identity */, items_, right_items_, order_, stack_;
 };
 

@@ -3,37 +3,13 @@
 
 #include <cmath>
 
-#include "harness/base/random.h"
 #include "harness/frame/frame_input.h"
+#include "random_shapes.h"
 
 namespace ml {
 namespace {
 
-glm::vec3 any_direction(Random& random) {
-  glm::vec3 v;
-  do {
-    v = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-  } while (glm::length(v) < 0.1f);
-  return glm::normalize(v);
-}
-
-std::vector<Light> random_lights(uint32_t count, Random& random) {
-  std::vector<Light> lights(count);
-  for (uint32_t i = 0; i < count; ++i) {
-    Light& light = lights[i];
-    light.position = {random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9)};
-    light.shape = static_cast<LightShape>(i % 5);
-    light.radius = std::pow(10.0f, random.uniform(-4, 4));
-    light.direction = any_direction(random);
-    light.side = glm::normalize(glm::cross(light.direction, any_direction(random)));
-    light.half_length = random.below(4) ? std::pow(10.0f, random.uniform(-4, 4)) : 0;
-    if (light.shape == LightShape::box)
-      make_box(light, {std::pow(10.0f, random.uniform(-3, 3)), std::pow(10.0f, random.uniform(-3, 3)),
-                       std::pow(10.0f, random.uniform(-3, 3))});
-    EXPECT_EQ(rejection_reason(light), nullptr) << rejection_reason(light);
-  }
-  return lights;
-}
+using namespace test;
 
 // Farthest point of the light's volume from its position, with the axes that the GPU has.
 double farthest(const gpu_data::LightCore& core, const gpu_data::LightExtra& extra) {
@@ -52,7 +28,7 @@ double farthest(const gpu_data::LightCore& core, const gpu_data::LightExtra& ext
 
 TEST(FrameLights, TheBoundingBallHoldsTheVolumeAndLittleMore) {
   Random random(1);
-  const std::vector<Light> lights = random_lights(20000, random);
+  const std::vector<Light> lights = random_shapes(20000, random);
   FrameLightStorage storage;
   storage.fill(lights, glm::vec3(1, 2, 3));
   const FrameLights frame = storage.lights();
@@ -70,7 +46,7 @@ TEST(FrameLights, TheBoundingBallHoldsTheVolumeAndLittleMore) {
 
 TEST(FrameLights, ProbeLightsKeepShapeAndNumberAndAreDirectOnesWithoutTheEffect) {
   Random random(9);
-  std::vector<Light> lights = random_lights(200, random);
+  std::vector<Light> lights = random_shapes(200, random);
   for (size_t i = 0; i < lights.size(); i += 3) lights[i].probe = true;
   FrameLightStorage storage;
   for (bool probes : {true, false}) {
@@ -87,7 +63,7 @@ TEST(FrameLights, ProbeLightsKeepShapeAndNumberAndAreDirectOnesWithoutTheEffect)
 
 TEST(FrameLights, TheBallsOfOmniLightsSpotsAndSegmentsWithoutLengthAreTheirOwn) {
   Random random(2);
-  std::vector<Light> lights = random_lights(4000, random);
+  std::vector<Light> lights = random_shapes(4000, random);
   for (Light& light : lights) light.half_length = 0;
   FrameLightStorage storage;
   storage.fill(lights, glm::vec3(0));
@@ -99,7 +75,7 @@ TEST(FrameLights, TheBallsOfOmniLightsSpotsAndSegmentsWithoutLengthAreTheirOwn) 
 
 TEST(FrameLights, ExtrasAreThereWhenALightNeedsThem) {
   Random random(3);
-  const std::vector<Light> lights = random_lights(5, random);
+  const std::vector<Light> lights = random_shapes(5, random);
   FrameLightStorage storage;
   for (uint32_t shape = 0; shape < 5; ++shape) {
     storage.fill({lights[0], lights[shape]}, glm::vec3(0));
