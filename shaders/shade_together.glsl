@@ -1,16 +1,7 @@
 // The shading loop for subgroups whose pixels walk lights together (WALK_TOGETHER). Included by shade.comp for cursors with CURSOR_RUNS.
 #ifndef ML_SHADE_TOGETHER_GLSL
 #define ML_SHADE_TOGETHER_GLSL
-#include "shaders/subgroup_exchange.glsl"
-
-LightCore light_of_lane(LightCore own, uint lane) {
-  LightCore light;
-  light.position = vec3(subgroupShuffle(own.position.x, lane), subgroupShuffle(own.position.y, lane), subgroupShuffle(own.position.z, lane));
-  light.radius = subgroupShuffle(own.radius, lane);
-  light.intensity = vec3(subgroupShuffle(own.intensity.x, lane), subgroupShuffle(own.intensity.y, lane), subgroupShuffle(own.intensity.z, lane));
-  light.id_shape = subgroupShuffle(own.id_shape, lane);
-  return light;
-}
+#include "shaders/light_exchange.glsl"
 
 // Tests the light that `lane` fetched, and notes in `contributing` whether it contributes.
 void test_lane(SurfacePoint point, LightCore own, uint lane, uint batch, bool wanted, inout uint contributing) {

@@ -2,6 +2,7 @@
 // what the candidates are: `uint candidate(uint place)`, a visible index.
 #ifndef ML_FINE_PRUNED_LIGHT_BATCHES_GLSL
 #define ML_FINE_PRUNED_LIGHT_BATCHES_GLSL
+#include "group_votes.glsl"
 #include "pruned_lists.h"
 #include "shaders/quads.glsl"
 
@@ -21,8 +22,8 @@ ScreenBounds bounds_of(uint light) {
   return ScreenBounds(words.x, words.y, uintBitsToFloat(words.z), uintBitsToFloat(words.w));
 }
 
-const uint rounds = 8u;  // lights that a thread tests in one batch
-const uint batch = rounds * ML_PRUNED_GROUP, batch_words = batch / 32u;
+const uint most_rounds = 8u;  // lights that a thread tests in one batch
+const uint batch = most_rounds * ML_PRUNED_GROUP, batch_words = batch / 32u;
 
 shared uint passed[3u * batch_words];  // which lights of a batch passed; three take turns, so that a barrier a batch is enough
 
@@ -48,12 +49,17 @@ bool overlaps(ScreenBounds light, ScreenBounds place) {
          (!TILE_DEPTHS || light.far >= place.near && light.near <= place.far);
 }
 
+// Rounds of the batch that begins at candidate `first` in which there are candidates before `count`.
+uint rounds_of(uint first, uint count) { return min((count - first + ML_PRUNED_GROUP - 1u) / ML_PRUNED_GROUP, most_rounds); }
+
 // Those of the batch of candidates from `first` on, and before `count`, that overlap: as bits of passed[field ...].
 void test_batch(uint first, uint count, uint field, ScreenBounds place) {
-  const uint thread = gl_LocalInvocationIndex;
+  const uint thread = gl_LocalInvocationIndex, rounds = rounds_of(first, count);
   for (uint round = 0u; round < rounds; ++round) {
     const uint at = first + round * ML_PRUNED_GROUP + thread;
-    if (at < count && overlaps(bounds_of(candidate(at)), place)) atomicOr(passed[field + round * 2u + (thread >> 5)], 1u << (thread & 31u));
+    const uint bit = at < count && overlaps(bounds_of(candidate(min(at, count - 1u))), place) ? 1u << (thread & 31u) : 0u;
+    SET_BITS(passed[field + round * 2u], (thread < 32u ? bit : 0u))
+    SET_BITS(passed[field + round * 2u + 1u], (thread < 32u ? 0u : bit))
   }
 }
 

@@ -5,9 +5,15 @@
 #define ML_LIGHT_VOLUME_GLSL
 #include "light_hull.glsl"
 #include "pruned_lists.h"
+#include "shaders/light_exchange.glsl"
 
 // With it a light holds a point only where the surface faces it.
 layout(constant_id = 17) const uint PRUNE = ML_PRUNE_FINE;
+
+// What only some shapes have of the light that is tested, where it was fetched beforehand (small subgroups); else fetched when it is needed.
+LightExtra extra_at_hand;
+
+LightExtra extra_of(LightCore light) { return small_subgroup ? extra_at_hand : extra_at(light.id_shape & ML_LIGHT_ID_MASK); }
 
 struct FourPoints {
   vec4 x, y, z;     // m, camera-relative, world axes
@@ -26,7 +32,7 @@ FourWays ways_to(FourPoints points, LightCore light, bool segment) {
   precise vec4 y = vec4(light.position.y) - points.y;
   precise vec4 z = vec4(light.position.z) - points.z;
   if (segment) {
-    const LightExtra extra = extra_at(light.id_shape & ML_LIGHT_ID_MASK);
+    const LightExtra extra = extra_of(light);
     const float sx = extra.side.x, sy = extra.side.y, sz = extra.side.z, limit = extra.half_length;
     precise vec4 along = clamp(-(x * sx + y * sy + z * sz), vec4(-limit), vec4(limit));
     precise vec4 nx = x + along * sx;
@@ -67,7 +73,7 @@ bool in_cone(FourPoints points, LightCore light) {
   const FourWays ways = ways_to(points, light, wedge);
   const bvec4 near = both(within_radius(points, ways, light), faced(points, ways, light));
   if (!wedge && !is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT) || !any(near)) return any(near);
-  const LightExtra extra = extra_at(light.id_shape & ML_LIGHT_ID_MASK);
+  const LightExtra extra = extra_of(light);
   const vec4 along = -(ways.x * extra.direction.x + ways.y * extra.direction.y + ways.z * extra.direction.z);
   // A point on the light has no direction: it counts.
   const vec4 edge = (extra.cos_outer - cone_margin) * sqrt(ways.squared);
@@ -87,11 +93,25 @@ bool in_box_volume(FourPoints points, LightCore light) {
   const FourWays ways = ways_to(points, light, false);
   const bvec4 facing = faced(points, ways, light);
   if (!is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) return any(both(within_radius(points, ways, light), facing));
-  const LightExtra extra = extra_at(light.id_shape & ML_LIGHT_ID_MASK);
+  const LightExtra extra = extra_of(light);
   const vec3 half_extents = box_half_extents(extra);
   const bvec4 inside = both(both(between(ways, extra.side, half_extents.x), between(ways, box_up(extra), half_extents.y)),
                             between(ways, extra.direction, half_extents.z));
   return any(both(both(points.lit, facing), inside));
+}
+
+const bool any_extras = EFFECT_SPOTS || EFFECT_CAPSULES || EFFECT_WEDGES || EFFECT_BOXES;
+
+LightExtra extra_of_type(LightCore light) {
+  if (any_extras) return extra_at(light.id_shape & ML_LIGHT_ID_MASK);
+  return LightExtra(vec3(0), 0.0, vec3(0), 0.0, 0.0, 0.0, 0.0, 0.0);
+}
+
+// Of any type.
+bool in_volume(FourPoints points, LightCore light) {
+  if (is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) return in_box_volume(points, light);
+  if (is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT) || is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE)) return in_cone(points, light);
+  return in_ball(points, light);
 }
 
 #endif

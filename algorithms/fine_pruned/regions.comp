@@ -3,6 +3,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#extension GL_KHR_shader_subgroup_vote : require
 #include "shaders/surface.glsl"
 
 uint candidate(uint place) { return place; }
@@ -12,16 +16,11 @@ layout(local_size_x = ML_PRUNED_GROUP) in;
 layout(scalar, binding = 22) writeonly buffer RegionLists { uint region_lists[]; };
 layout(scalar, push_constant) uniform Push { PrunedPush push; };
 
-shared uint depth_low, depth_high;  // bits of the region's depths, which are positive and so in order
-
 // Rectangle and depths of the region's pixels that are not sky.
 ScreenBounds region_bounds() {
   const uint thread = gl_LocalInvocationIndex, side = ML_PRUNED_TILE << push.region_shift;
   const uvec2 corner = gl_WorkGroupID.xy * side, edge = min(corner + side - 1u, view.resolution - 1u);
-  if (thread == 0u) {
-    depth_low = 0xffffffffu;
-    depth_high = 0u;
-  }
+  clear_depths();
   barrier();
   uint low = 0xffffffffu, high = 0u;
   for (uint y = corner.y + (thread >> 3); y <= edge.y; y += 8u)
@@ -31,8 +30,7 @@ ScreenBounds region_bounds() {
       low = reversed > 0.0 ? min(low, bits) : low;
       high = reversed > 0.0 ? max(high, bits) : high;
     }
-  atomicMin(depth_low, low);
-  atomicMax(depth_high, high);
+  add_depths(low, high);
   barrier();
   return ScreenBounds(corner.x | edge.x << 16, corner.y | edge.y << 16, uintBitsToFloat(depth_low), uintBitsToFloat(depth_high));
 }
@@ -48,6 +46,7 @@ void main() {
     const uint field = turn * batch_words;
     test_batch(begin, count, field, region);
     barrier();
+    const uint rounds = rounds_of(begin, count);
     for (uint round = 0u; round < rounds; ++round) {
       const uvec2 mask = passed_in(field, round);
       if (has_bit(mask, thread)) region_lists[list + 1u + held + bits_before(mask, thread)] = begin + round * ML_PRUNED_GROUP + thread;

@@ -1,10 +1,9 @@
 // Step 2(a): the pixels of a tile, four a thread, and the bounds of all of them.
 #ifndef ML_FINE_PRUNED_TILE_POINTS_GLSL
 #define ML_FINE_PRUNED_TILE_POINTS_GLSL
+#include "group_votes.glsl"
 #include "light_volume.glsl"
 #include "pruned_lists.h"
-
-shared uint depth_low, depth_high;  // bits of the tile's depths, which are positive and so in order
 
 FourPoints points;
 ScreenBounds tile_bounds;
@@ -14,11 +13,10 @@ void load_points() {
   const uint thread = gl_LocalInvocationIndex;
   const uvec2 corner = gl_WorkGroupID.xy * ML_PRUNED_TILE;
   const uvec2 first = corner + 2u * uvec2(thread & 7u, thread >> 3), last = view.resolution - 1u;
-  if (thread == 0u) {
-    depth_low = 0xffffffffu;
-    depth_high = 0u;
-  }
+  clear_depths();
   barrier();
+  uint low = 0xffffffffu, high = 0u;
+  points.x = points.y = points.z = points.nx = points.ny = points.nz = vec4(0);
   for (uint i = 0u; i < 4u; ++i) {
     const uvec2 pixel = min(first + uvec2(i & 1u, i >> 1), last);
     const float reversed = texelFetch(Depth, ivec2(pixel), 0).x;
@@ -37,9 +35,10 @@ void load_points() {
     points.y[i] = position.y;
     points.z[i] = position.z;
     const uint bits = floatBitsToUint(max(depth, 0.0));
-    atomicMin(depth_low, bits);
-    atomicMax(depth_high, bits);
+    low = min(low, bits);
+    high = max(high, bits);
   }
+  add_depths(low, high);
   barrier();
   const uvec2 edge = min(corner + ML_PRUNED_TILE - 1u, last);
   tile_bounds = ScreenBounds(corner.x | edge.x << 16, corner.y | edge.y << 16, uintBitsToFloat(depth_low), uintBitsToFloat(depth_high));

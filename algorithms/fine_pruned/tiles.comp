@@ -6,6 +6,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#extension GL_KHR_shader_subgroup_vote : require
 #include "light_volume.glsl"
 #include "pruned_lists.h"
 #include "tile_points.glsl"
@@ -54,14 +58,16 @@ uint lights_before(uint begin, uint count, uint value) {
 // Place in the chunk at which its probe lights begin.
 uint probes_from(uint begin, uint count) { return EFFECT_PROBES ? lights_before(begin, count, visible.first_probe) : count; }
 
+void set_bit(uint at, inout uvec2 mask) {
+  if (at < 32u)
+    mask.x |= 1u << at;
+  else
+    mask.y |= 1u << (at - 32u);
+}
+
 // One loop for each type of volume. Several lights a turn where there are many: some drivers are short of turns (shaders/light_eval.glsl).
-#define PRUNE(volume, end, at)                                                               \
-  if (at < end && volume(points, light_at(visible_lights[coarse[begin + at]]))) {              \
-    if (at < 32u)                                                                            \
-      mask.x |= 1u << at;                                                                    \
-    else                                                                                     \
-      mask.y |= 1u << (at - 32u);                                                            \
-  }
+#define PRUNE(volume, end, at) \
+  if (at < end && volume(points, light_at(visible_lights[coarse[begin + at]]))) set_bit(at, mask);
 #define PRUNE_LOOP(volume, from, end)                                                        \
   for (uint i = from; i < end; i += LONG_LISTS ? 8u : 2u) {                                  \
     PRUNE(volume, end, i)                                                                    \
@@ -76,6 +82,48 @@ uint probes_from(uint begin, uint count) { return EFFECT_PROBES ? lights_before(
     }                                                                                        \
   }
 
+uvec2 prune_by_type(uint begin, uint count) {
+  uvec2 mask = uvec2(0u);
+  if (!any(points.lit)) return mask;
+  const uint cones = lights_before(begin, count, visible.first_cone), boxes = lights_before(begin, count, visible.first_box);
+  const uint probes = probes_from(begin, count);
+  PRUNE_LOOP(in_ball, 0u, cones)
+  PRUNE_LOOP(in_cone, cones, boxes)
+  PRUNE_LOOP(in_box_volume, boxes, probes)
+  if (EFFECT_PROBES) {
+    const uint probe_cones = lights_before(begin, count, visible.first_probe_cone);
+    const uint probe_boxes = lights_before(begin, count, visible.first_probe_box);
+    PRUNE_LOOP(in_ball, probes, probe_cones)
+    PRUNE_LOOP(in_cone, probe_cones, probe_boxes)
+    PRUNE_LOOP(in_box_volume, probe_boxes, count)
+  }
+  return mask;
+}
+
+void test_of_lane(LightCore own, LightExtra own_extra, uint lane, uint lanes, uint first, inout uvec2 mask) {
+  const LightCore light = light_of_lane(own, min(lane, lanes - 1u));
+  extra_at_hand = extra_of_lane(own_extra, min(lane, lanes - 1u));
+  if (lane < lanes && in_volume(points, light)) set_bit(first + lane, mask);
+}
+
+// For small subgroups, each lane of which fetches a light and hands it to the others; all of them stay together. One loop for all types: where a
+// loop that has nothing to do costs a turn (Mesa's software driver), three are more than one that tests for each type.
+uvec2 prune_together(uint begin, uint count) {
+  uvec2 mask = uvec2(0u);
+  for (uint first = 0u; first < count; first += SUBGROUP_LANES) {
+    const LightCore own = light_at(visible_lights[coarse[begin + min(first + gl_SubgroupInvocationID, count - 1u)]]);
+    const LightExtra own_extra = extra_of_type(own);
+    const uint lanes = min(count - first, SUBGROUP_LANES);
+    uint lane = 0u;
+    do {
+      test_of_lane(own, own_extra, lane, lanes, first, mask);
+      test_of_lane(own, own_extra, lane + 1u, lanes, first, mask);
+      lane += 2u;
+    } while (lane < lanes);
+  }
+  return mask;
+}
+
 // Which of the coarse lights begin .. begin + count, at most 64, hold a pixel of the tile. The coarse list was written before a barrier that
 // all threads have passed.
 uvec2 prune(uint begin, uint count) {
@@ -83,23 +131,9 @@ uvec2 prune(uint begin, uint count) {
                           count < 32u ? 0u : count < 64u ? (1u << (count - 32u)) - 1u : 0xffffffffu);
   if (gl_LocalInvocationIndex < 2u) survivors[gl_LocalInvocationIndex] = 0u;
   barrier();
-  const uint cones = lights_before(begin, count, visible.first_cone), boxes = lights_before(begin, count, visible.first_box);
-  const uint probes = probes_from(begin, count);
-  uvec2 mask = uvec2(0u);
-  if (any(points.lit)) {
-    PRUNE_LOOP(in_ball, 0u, cones)
-    PRUNE_LOOP(in_cone, cones, boxes)
-    PRUNE_LOOP(in_box_volume, boxes, probes)
-    if (EFFECT_PROBES) {
-      const uint probe_cones = lights_before(begin, count, visible.first_probe_cone);
-      const uint probe_boxes = lights_before(begin, count, visible.first_probe_box);
-      PRUNE_LOOP(in_ball, probes, probe_cones)
-      PRUNE_LOOP(in_cone, probe_cones, probe_boxes)
-      PRUNE_LOOP(in_box_volume, probe_boxes, count)
-    }
-  }
-  if (mask.x != 0u) atomicOr(survivors[0], mask.x);
-  if (mask.y != 0u) atomicOr(survivors[1], mask.y);
+  uvec2 mask = small_subgroup ? prune_together(begin, count) : prune_by_type(begin, count);
+  SET_BITS(survivors[0], mask.x)
+  SET_BITS(survivors[1], mask.y)
   barrier();
   mask = uvec2(survivors[0], survivors[1]);
   barrier();
@@ -126,8 +160,8 @@ void append_chunk(uint begin, uint count, uint first, inout uint listed) {
 }
 
 // Appends the lights that passed to coarse[], as far as it holds them; how many they were.
-uint keep_batch(uint first_light, uint field, uint held) {
-  const uint thread = gl_LocalInvocationIndex;
+uint keep_batch(uint first_light, uint count, uint field, uint held) {
+  const uint thread = gl_LocalInvocationIndex, rounds = rounds_of(first_light, count);
   uint before = held;
   for (uint round = 0u; round < rounds; ++round) {
     const uvec2 mask = passed_in(field, round);
@@ -158,7 +192,7 @@ void main() {
     const uint field = turn * batch_words;
     test_batch(begin, count, field, tile_bounds);
     barrier();
-    const uint more = keep_batch(begin, field, held);
+    const uint more = keep_batch(begin, count, field, held);
     turn = next_turn(turn);
     demand += more;
     held += more;

@@ -29,8 +29,16 @@ std::vector<std::string> Effects::names(const gpu::Device& device) const {
 }
 
 std::vector<gpu::Constant> Effects::constants(const gpu::Device& device) const {
-  return {{0, spots},  {1, specular}, {3, long_lists}, {4, capsules},
-          {5, wedges}, {6, boxes},    {10, probes},    {12, fetches_texels(device)}};
+  const gpu::DeviceLimits& limits = device.limits();
+  return {{0, spots},
+          {1, specular},
+          {3, long_lists},
+          {4, capsules},
+          {5, wedges},
+          {6, boxes},
+          {10, probes},
+          {11, limits.one_subgroup_size ? limits.subgroup_size : 0},
+          {12, fetches_texels(device)}};
 }
 
 void require_texels(const gpu::DeviceLimits& limits, const std::string& what, uint64_t bytes) {

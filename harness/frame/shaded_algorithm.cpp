@@ -80,7 +80,6 @@ const gpu::ComputeProgram& ShadedAlgorithm::program(const Variant& variant) {
   for (gpu::Constant& constant : constants)
     if (constant.id == 3) constant.value = variant.long_walks;
   constants.push_back({7, together_});
-  constants.push_back({11, device_.limits().one_subgroup_size ? device_.limits().subgroup_size : 0});
   constants.push_back({8, effects_.forward && !variant.sampled});
   constants.push_back({9, effects_.split_targets && !variant.sampled});
   const uint32_t behind = append_numbered(constants, first_own_id, algorithm_->shade_constants());

@@ -1,0 +1,31 @@
+// Lights handed around a subgroup: each lane fetches one, so that a light is fetched once for all of them. All lanes must take part.
+#ifndef ML_LIGHT_EXCHANGE_GLSL
+#define ML_LIGHT_EXCHANGE_GLSL
+#include "shaders/light_eval.glsl"
+#include "shaders/subgroup_exchange.glsl"
+
+vec3 of_lane(vec3 value, uint lane) { return vec3(subgroupShuffle(value.x, lane), subgroupShuffle(value.y, lane), subgroupShuffle(value.z, lane)); }
+
+LightCore light_of_lane(LightCore own, uint lane) {
+  LightCore light;
+  light.position = of_lane(own.position, lane);
+  light.radius = subgroupShuffle(own.radius, lane);
+  light.intensity = of_lane(own.intensity, lane);
+  light.id_shape = subgroupShuffle(own.id_shape, lane);
+  return light;
+}
+
+LightExtra extra_of_lane(LightExtra own, uint lane) {
+  LightExtra extra;
+  extra.direction = of_lane(own.direction, lane);
+  extra.half_length = subgroupShuffle(own.half_length, lane);
+  extra.side = of_lane(own.side, lane);
+  extra.cone_scale = subgroupShuffle(own.cone_scale, lane);
+  extra.cone_limit = subgroupShuffle(own.cone_limit, lane);
+  extra.cos_outer = subgroupShuffle(own.cos_outer, lane);
+  extra.bound_radius = subgroupShuffle(own.bound_radius, lane);
+  extra.spare = 0.0;
+  return extra;
+}
+
+#endif
