@@ -61,6 +61,13 @@ bool is_shape(LightCore light, bool effect, uint shape) {
   return effect && light.id_shape >> 24 == shape;
 }
 
+const bool any_extras = EFFECT_SPOTS || EFFECT_CAPSULES || EFFECT_WEDGES || EFFECT_BOXES;
+
+bool has_extra(LightCore light) {
+  return is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT) || is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE) ||
+         is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE) || is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX);
+}
+
 bool is_probe(LightCore light) { return EFFECT_PROBES && (light.id_shape & ML_LIGHT_PROBE) != 0u; }
 
 // m: the light gives nothing beyond this distance from its position.
@@ -104,18 +111,14 @@ bool in_box(LightExtra extra, REAL dx, REAL dy, REAL dz, out REAL window) {
 }
 
 // False when the light does not contribute: window 0, behind the surface (unless it is a probe), or outside the cone. `precise` because every pass must decide
-// alike.
-bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
+// alike. `extra`: what its shape needs, if anything.
+bool light_sample(SurfacePoint point, LightCore light, LightExtra extra, out LightSample result) {
   result.direction = VEC3(0);
   result.cosine = REAL(0);
   result.strength = REAL(0);
-  const uint id = light.id_shape & ML_LIGHT_ID_MASK;
   const bool probe = is_probe(light);
   const bool spot = is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT), wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
   const bool capsule = is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE), box = is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX);
-  // Once, for all that ask for it: where lanes run in step every question would be a fetch.
-  LightExtra extra;
-  if (spot || wedge || capsule || box) extra = extra_at(id);
   precise REAL dx = REAL(light.position.x) - REAL(point.position.x);
   precise REAL dy = REAL(light.position.y) - REAL(point.position.y);
   precise REAL dz = REAL(light.position.z) - REAL(point.position.z);
@@ -157,6 +160,13 @@ bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
     result.strength *= cone * cone;
   }
   return true;
+}
+
+bool light_sample(SurfacePoint point, LightCore light, out LightSample result) {
+  // Once, for all that ask for it: where lanes run in step every question would be a fetch.
+  LightExtra extra;
+  if (has_extra(light)) extra = extra_at(light.id_shape & ML_LIGHT_ID_MASK);
+  return light_sample(point, light, extra, result);
 }
 
 const float lambert = 0.31830988618379067;  // 1 / pi

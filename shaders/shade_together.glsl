@@ -3,18 +3,32 @@
 #define ML_SHADE_TOGETHER_GLSL
 #include "shaders/light_exchange.glsl"
 
+// What shapes need beyond a light's core goes with it where that is cheaper than to fetch it in every lane: in small subgroups.
+const bool extras_go_along = any_extras && small_subgroup;
+
+// The light that a lane fetched, seen from the point.
+bool sample_of_lane(SurfacePoint point, LightCore own, LightExtra own_extra, uint lane, bool wanted, out LightCore data, out LightSample from) {
+  data = light_of_lane(own, lane);
+  if (!extras_go_along) return wanted && light_sample(point, data, from);
+  const LightExtra extra = extra_of_lane(own_extra, lane);
+  return wanted && light_sample(point, data, extra, from);
+}
+
 // Tests the light that `lane` fetched, and notes in `contributing` whether it contributes.
-void test_lane(SurfacePoint point, LightCore own, uint lane, uint batch, bool wanted, inout uint contributing) {
+void test_lane(SurfacePoint point, LightCore own, LightExtra own_extra, uint lane, uint batch, bool wanted, inout uint contributing) {
+  LightCore data;
   LightSample from;
-  const LightCore data = light_of_lane(own, min(lane, batch - 1u));
-  if (wanted && lane < batch && test_light(point, data, from)) contributing |= 1u << lane;
+  wanted = wanted && lane < batch;
+  if (wanted) COUNT_TESTED(1u);
+  if (sample_of_lane(point, own, own_extra, min(lane, batch - 1u), wanted, data, from)) contributing |= 1u << lane;
 }
 
 // Adds the first light of `contributing`, which may be none, and takes it out.
-void add_lane(SurfacePoint point, LightCore own, inout uint contributing, inout VEC3 sum) {
+void add_lane(SurfacePoint point, LightCore own, LightExtra own_extra, inout uint contributing, inout VEC3 sum) {
+  LightCore data;
   LightSample from;
-  const LightCore data = light_of_lane(own, contributing != 0u ? uint(findLSB(contributing)) : 0u);
-  if (contributing != 0u && light_sample(point, data, from)) add_light(point, data, from, 1.0, sum);
+  const uint lane = contributing != 0u ? uint(findLSB(contributing)) : 0u;
+  if (sample_of_lane(point, own, own_extra, lane, contributing != 0u, data, from)) add_light(point, data, from, 1.0, sum);
   contributing &= contributing - 1u;
 }
 
@@ -28,31 +42,33 @@ void shade_run(SurfacePoint point, uint first, uint count, bool wanted, inout VE
   do {
     const uint batch = min(count - begin, lanes);
     const LightCore own = CURSOR_LIGHT(run_light(first + begin + min(gl_SubgroupInvocationID, batch - 1u)));
+    LightExtra own_extra;
+    if (extras_go_along) own_extra = extra_at(own.id_shape & ML_LIGHT_ID_MASK);
     uint contributing = 0u, i = 0u;
     do {
-      test_lane(point, own, i, batch, wanted, contributing);
-      test_lane(point, own, i + 1u, batch, wanted, contributing);
-      test_lane(point, own, i + 2u, batch, wanted, contributing);
-      test_lane(point, own, i + 3u, batch, wanted, contributing);
+      test_lane(point, own, own_extra, i, batch, wanted, contributing);
+      test_lane(point, own, own_extra, i + 1u, batch, wanted, contributing);
+      test_lane(point, own, own_extra, i + 2u, batch, wanted, contributing);
+      test_lane(point, own, own_extra, i + 3u, batch, wanted, contributing);
       if (LONG_LISTS) {
-        test_lane(point, own, i + 4u, batch, wanted, contributing);
-        test_lane(point, own, i + 5u, batch, wanted, contributing);
-        test_lane(point, own, i + 6u, batch, wanted, contributing);
-        test_lane(point, own, i + 7u, batch, wanted, contributing);
+        test_lane(point, own, own_extra, i + 4u, batch, wanted, contributing);
+        test_lane(point, own, own_extra, i + 5u, batch, wanted, contributing);
+        test_lane(point, own, own_extra, i + 6u, batch, wanted, contributing);
+        test_lane(point, own, own_extra, i + 7u, batch, wanted, contributing);
       }
       i += LONG_LISTS ? 8u : 4u;
     } while (i < batch);
     if (any_of_all(contributing != 0u)) {
       do {
-        add_lane(point, own, contributing, sum);
+        add_lane(point, own, own_extra, contributing, sum);
         if (LONG_LISTS) {
-          add_lane(point, own, contributing, sum);
-          add_lane(point, own, contributing, sum);
-          add_lane(point, own, contributing, sum);
-          add_lane(point, own, contributing, sum);
-          add_lane(point, own, contributing, sum);
-          add_lane(point, own, contributing, sum);
-          add_lane(point, own, contributing, sum);
+          add_lane(point, own, own_extra, contributing, sum);
+          add_lane(point, own, own_extra, contributing, sum);
+          add_lane(point, own, own_extra, contributing, sum);
+          add_lane(point, own, own_extra, contributing, sum);
+          add_lane(point, own, own_extra, contributing, sum);
+          add_lane(point, own, own_extra, contributing, sum);
+          add_lane(point, own, own_extra, contributing, sum);
         }
       } while (any_of_all(contributing != 0u));
     }

@@ -100,13 +100,6 @@ bool in_box_volume(FourPoints points, LightCore light) {
   return any(both(both(points.lit, facing), inside));
 }
 
-const bool any_extras = EFFECT_SPOTS || EFFECT_CAPSULES || EFFECT_WEDGES || EFFECT_BOXES;
-
-LightExtra extra_of_type(LightCore light) {
-  if (any_extras) return extra_at(light.id_shape & ML_LIGHT_ID_MASK);
-  return LightExtra(vec3(0), 0.0, vec3(0), 0.0, 0.0, 0.0, 0.0, 0.0);
-}
-
 // Of any type.
 bool in_volume(FourPoints points, LightCore light) {
   if (is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) return in_box_volume(points, light);

@@ -112,7 +112,8 @@ uvec2 prune_together(uint begin, uint count) {
   uvec2 mask = uvec2(0u);
   for (uint first = 0u; first < count; first += SUBGROUP_LANES) {
     const LightCore own = light_at(visible_lights[coarse[begin + min(first + gl_SubgroupInvocationID, count - 1u)]]);
-    const LightExtra own_extra = extra_of_type(own);
+    LightExtra own_extra;
+    if (any_extras) own_extra = extra_at(own.id_shape & ML_LIGHT_ID_MASK);
     const uint lanes = min(count - first, SUBGROUP_LANES);
     uint lane = 0u;
     do {
