@@ -15,6 +15,10 @@ LightCore light_of_lane(LightCore own, uint lane) {
   return light;
 }
 
+// Of a light fetched before it is known whether its shape needs one: the first light's where it does not, for in a frame of omni lights there are
+// no more.
+LightExtra extra_ahead(LightCore light) { return extra_at(has_extra(light) ? light.id_shape & ML_LIGHT_ID_MASK : 0u); }
+
 LightExtra extra_of_lane(LightExtra own, uint lane) {
   LightExtra extra;
   extra.direction = of_lane(own.direction, lane);

@@ -43,7 +43,7 @@ void shade_run(SurfacePoint point, uint first, uint count, bool wanted, inout VE
     const uint batch = min(count - begin, lanes);
     const LightCore own = CURSOR_LIGHT(run_light(first + begin + min(gl_SubgroupInvocationID, batch - 1u)));
     LightExtra own_extra;
-    if (extras_go_along) own_extra = extra_at(own.id_shape & ML_LIGHT_ID_MASK);
+    if (extras_go_along) own_extra = extra_ahead(own);
     uint contributing = 0u, i = 0u;
     do {
       test_lane(point, own, own_extra, i, batch, wanted, contributing);
@@ -104,8 +104,8 @@ void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
 }
 
 bool in_one_cell(SurfacePoint point, bool lit) {
-  const uint cell = lit ? light_cell(point) : 0xffffffffu;
-  return subgroupAll(!lit || cell == lowest_of_all(cell));
+  const uint cell = lit ? light_cell(point) : 0xffffffffu, lowest = lowest_of_all(cell);
+  return subgroupAll(!lit || cell == lowest);
 }
 
 #endif

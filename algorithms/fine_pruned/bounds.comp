@@ -1,5 +1,5 @@
 // Step 1(c): the screen bounds of each visible light. The faces of its hull are clipped against the view, corners of the view that lie in the
-// hull are added, and the bounds of the ball around the light cut off what is left over. The view has no far end: depth is reversed.
+// hull are added, and the bounds of the balls around the light cut off what is left over. The view has no far end: depth is reversed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -112,32 +112,35 @@ vec2 ball_interval(float a, float z, float radius) {
   return vec2(low_seen ? low_a / low_z : (a - chord) / view.near, high_seen ? high_a / high_z : (a + chord) / view.near);
 }
 
-// The smallest ball around a light, in view space: the apex of a cone lies on it or in it, and not in its middle.
-void bounding_ball(LightCore light, out vec3 centre, out float radius) {
-  centre = to_view(light.position);
-  radius = light_bound(light);
-  const bool wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
-  if (!wedge && !is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT)) return;
-  const LightExtra extra = extra_at(light.id_shape & ML_LIGHT_ID_MASK);
-  const float cosine = extra.cos_outer - cone_margin;
-  if (cosine <= 0.0) return;
-  const bool narrow = cosine * cosine > 0.5;
-  const float ahead = narrow ? 0.5 * light.radius / cosine : light.radius * cosine;
-  centre += to_view(extra.direction) * ahead;
-  radius = (narrow ? ahead : light.radius * sqrt(1.0 - cosine * cosine)) + (wedge ? extra.half_length : 0.0);
-}
-
-WindowBounds ball_bounds(LightCore light) {
-  vec3 centre;
-  float radius;
-  bounding_ball(light, centre, radius);
-  radius = radius * 1.00002 + hull_absolute * sum_of_sizes(light.position) + hull_least;
+// `away`: the sum of coordinates from which the ball was computed, m.
+WindowBounds window_of_ball(vec3 centre, float radius, float away) {
+  radius = radius * 1.00002 + hull_absolute * away + hull_least;
   vec2 across = vec2(centre.x - radius, centre.x + radius), up = vec2(centre.y - radius, centre.y + radius);
   if (view.orthographic == 0u) {
     across = ball_interval(centre.x, centre.z, radius);
     up = ball_interval(centre.y, centre.z, radius);
   }
   return WindowBounds(vec3(across.x, up.x, centre.z - radius), vec3(across.y, up.y, centre.z + radius));
+}
+
+// What is in the ball around the light's position, out of which nothing is lit, and, for a cone, in the small one that its apex and its rim (up to 45
+// degrees) or its rim alone give: algorithms/light_bvh/light_volumes.cpp.
+WindowBounds ball_bounds(LightCore light) {
+  const vec3 position = to_view(light.position);
+  const float away = sum_of_sizes(light.position);
+  WindowBounds window = window_of_ball(position, light_bound(light), away);
+  const bool wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
+  if (!wedge && !is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT)) return window;
+  const LightExtra extra = extra_at(light.id_shape & ML_LIGHT_ID_MASK);
+  const float cosine = extra.cos_outer - cone_margin, sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+  if (cosine <= 0.0) return window;
+  const bool narrow = cosine > sine;
+  const float ahead = narrow ? 0.5 * light.radius / cosine : light.radius * cosine;
+  const float of_cone = narrow ? ahead : light.radius * sine, across = min(of_cone, light.radius * sine);
+  const float along = wedge ? extra.half_length : 0.0;
+  const float radius = sqrt(of_cone * of_cone + along * (along + 2.0 * across));
+  const WindowBounds small = window_of_ball(position + to_view(extra.direction) * ahead, radius, away + ahead);
+  return WindowBounds(max(window.low, small.low), min(window.high, small.high));
 }
 
 void main() {

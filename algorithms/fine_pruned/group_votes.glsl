@@ -13,7 +13,7 @@
 
 shared uint depth_low, depth_high;  // bits of depths, which are positive and so in order
 
-bool speaks_for_subgroup() { return gl_SubgroupInvocationID == 0u; }
+bool speaks_for_subgroup() { return small_subgroup ? gl_SubgroupInvocationID == 0u : subgroupElect(); }
 
 uint bits_of_subgroup(uint bits) { return small_subgroup ? bits_of_all(bits) : subgroupOr(bits); }
 

@@ -57,7 +57,7 @@ void test_batch(uint first, uint count, uint field, ScreenBounds place) {
   const uint thread = gl_LocalInvocationIndex, rounds = rounds_of(first, count);
   for (uint round = 0u; round < rounds; ++round) {
     const uint at = first + round * ML_PRUNED_GROUP + thread;
-    const uint bit = at < count && overlaps(bounds_of(candidate(min(at, count - 1u))), place) ? 1u << (thread & 31u) : 0u;
+    const uint bit = at < count && overlaps(bounds_of(candidate(at)), place) ? 1u << (thread & 31u) : 0u;
     SET_BITS(passed[field + round * 2u], (thread < 32u ? bit : 0u))
     SET_BITS(passed[field + round * 2u + 1u], (thread < 32u ? 0u : bit))
   }

@@ -18,9 +18,9 @@ ML_NAMESPACE_BEGIN
 #define ML_PRUNE_FACING 2u  // the same, if the surface there faces the light
 
 // What the screen bounds of a light are bounds of.
-#define ML_BOUNDS_HULL 0u  // the hull and the ball around the light: the chapter's
+#define ML_BOUNDS_HULL 0u  // the hull and the balls around the light: the chapter's
 #define ML_BOUNDS_BOX 1u   // the same with a hull that is not narrowed towards a cone's apex
-#define ML_BOUNDS_BALL 2u  // the ball alone
+#define ML_BOUNDS_BALL 2u  // the balls alone: around its position, and the smaller one around a cone
 
 // In front of the visible lights' indices, which are sorted: direct lights before probe lights, and each by
 // type: balls (omni, capsule), cones (spot, wedge), boxes. A light's place in that order is its visible

@@ -16,6 +16,7 @@ void load_points() {
   clear_depths();
   barrier();
   uint low = 0xffffffffu, high = 0u;
+  // Threads that see only sky test lights with the others of their subgroup.
   points.x = points.y = points.z = points.nx = points.ny = points.nz = vec4(0);
   for (uint i = 0u; i < 4u; ++i) {
     const uvec2 pixel = min(first + uvec2(i & 1u, i >> 1), last);

@@ -8,6 +8,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_vote : require
 #include "light_volume.glsl"
@@ -84,18 +85,19 @@ void set_bit(uint at, inout uvec2 mask) {
 
 uvec2 prune_by_type(uint begin, uint count) {
   uvec2 mask = uvec2(0u);
-  if (!any(points.lit)) return mask;
   const uint cones = lights_before(begin, count, visible.first_cone), boxes = lights_before(begin, count, visible.first_box);
   const uint probes = probes_from(begin, count);
-  PRUNE_LOOP(in_ball, 0u, cones)
-  PRUNE_LOOP(in_cone, cones, boxes)
-  PRUNE_LOOP(in_box_volume, boxes, probes)
-  if (EFFECT_PROBES) {
-    const uint probe_cones = lights_before(begin, count, visible.first_probe_cone);
-    const uint probe_boxes = lights_before(begin, count, visible.first_probe_box);
-    PRUNE_LOOP(in_ball, probes, probe_cones)
-    PRUNE_LOOP(in_cone, probe_cones, probe_boxes)
-    PRUNE_LOOP(in_box_volume, probe_boxes, count)
+  if (any(points.lit)) {
+    PRUNE_LOOP(in_ball, 0u, cones)
+    PRUNE_LOOP(in_cone, cones, boxes)
+    PRUNE_LOOP(in_box_volume, boxes, probes)
+    if (EFFECT_PROBES) {
+      const uint probe_cones = lights_before(begin, count, visible.first_probe_cone);
+      const uint probe_boxes = lights_before(begin, count, visible.first_probe_box);
+      PRUNE_LOOP(in_ball, probes, probe_cones)
+      PRUNE_LOOP(in_cone, probe_cones, probe_boxes)
+      PRUNE_LOOP(in_box_volume, probe_boxes, count)
+    }
   }
   return mask;
 }
@@ -110,16 +112,25 @@ void test_of_lane(LightCore own, LightExtra own_extra, uint lane, uint lanes, ui
 // loop that has nothing to do costs a turn (Mesa's software driver), three are more than one that tests for each type.
 uvec2 prune_together(uint begin, uint count) {
   uvec2 mask = uvec2(0u);
+  if (!any_of_all(any(points.lit))) return mask;
   for (uint first = 0u; first < count; first += SUBGROUP_LANES) {
     const LightCore own = light_at(visible_lights[coarse[begin + min(first + gl_SubgroupInvocationID, count - 1u)]]);
     LightExtra own_extra;
-    if (any_extras) own_extra = extra_at(own.id_shape & ML_LIGHT_ID_MASK);
+    if (any_extras) own_extra = extra_ahead(own);
     const uint lanes = min(count - first, SUBGROUP_LANES);
     uint lane = 0u;
     do {
       test_of_lane(own, own_extra, lane, lanes, first, mask);
       test_of_lane(own, own_extra, lane + 1u, lanes, first, mask);
-      lane += 2u;
+      if (LONG_LISTS) {
+        test_of_lane(own, own_extra, lane + 2u, lanes, first, mask);
+        test_of_lane(own, own_extra, lane + 3u, lanes, first, mask);
+        test_of_lane(own, own_extra, lane + 4u, lanes, first, mask);
+        test_of_lane(own, own_extra, lane + 5u, lanes, first, mask);
+        test_of_lane(own, own_extra, lane + 6u, lanes, first, mask);
+        test_of_lane(own, own_extra, lane + 7u, lanes, first, mask);
+      }
+      lane += LONG_LISTS ? 8u : 2u;
     } while (lane < lanes);
   }
   return mask;

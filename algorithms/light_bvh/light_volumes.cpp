@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algorithms/froxels/froxel_grid.h"
-
 namespace ml {
 namespace {
 
@@ -14,14 +12,10 @@ constexpr double cosine_error = 4e-6;
 // m: so near the apex a light has no direction, and gives as along its axis (harness/scene/light.h).
 constexpr double apex = 1e-6;
 
-double sum_of_sizes(const glm::dvec3& p) {
-  return std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
-}
-
-// Ball and half extents around `middle`, in double precision.
+// In double precision.
 struct Reach {
-  glm::dvec3 center;
-  double radius;
+  glm::dvec3 center;        // of the ball
+  double radius;            // m
   glm::dvec3 below, above;  // m from the light's position, along the world axes, >= 0
 };
 
@@ -88,18 +82,14 @@ Reach reach_of(const gpu_data::LightCore& core, const gpu_data::LightExtra& extr
 
 LightVolume volume_of(const FrameLights& lights, uint32_t light) {
   const glm::vec3 position(lights.x[light], lights.y[light], lights.z[light]);
-  const auto widened = [&](double radius) {
-    return static_cast<float>(radius * double{widen_relative} +
-                              double{widen_absolute} * sum_of_sizes(glm::dvec3(position)));
-  };
   if (lights.extra.empty() || lights.core[light].id_shape >> 24 == ML_SHAPE_OMNI) {
-    const float radius = widened(static_cast<double>(lights.radius[light]));
+    const float radius = widened(position, static_cast<double>(lights.radius[light]));
     return {position, radius, {position - radius, position + radius}};
   }
   const Reach reach = reach_of(lights.core[light], lights.extra[light]);
-  LightVolume volume{glm::vec3(reach.center), widened(reach.radius + 2 * apex), {}};
+  LightVolume volume{glm::vec3(reach.center), widened(position, reach.radius + 2 * apex), {}};
   const auto whole = static_cast<double>(lights.radius[light]);
-  const double margin = static_cast<double>(widened(whole + 2 * apex)) - whole;
+  const double margin = static_cast<double>(widened(position, whole + 2 * apex)) - whole;
   volume.box = {glm::vec3(glm::dvec3(position) - reach.below - margin),
                 glm::vec3(glm::dvec3(position) + reach.above + margin)};
   return volume;

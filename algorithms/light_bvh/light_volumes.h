@@ -1,14 +1,23 @@
-// What the tree goes by for each light: the smallest ball and the smallest box (world axes) around the volume
-// that it lights. For cones the ball is far smaller than the one around their apex: 1 / (2 cos a)^3 of it for
-// a half-angle a up to 45 degrees.
+// What the tree goes by for each light: the smallest ball (for wedges nearly) and the smallest box (world
+// axes) around the volume that it lights. For cones the ball is far smaller than the one around their apex: 1
+// / (2 cos a)^3 of it for a half-angle a up to 45 degrees.
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 #include <vector>
 
 #include "algorithms/algorithm.h"
+#include "algorithms/froxels/froxel_grid.h"
 
 namespace ml {
+
+// A ball's radius with what the rounding of coordinates around its centre and of distances in the shader may
+// take, m.
+inline float widened(const glm::vec3& center, double radius) {
+  const double sum = static_cast<double>(std::abs(center.x) + std::abs(center.y) + std::abs(center.z));
+  return static_cast<float>(radius * double{widen_relative} + double{widen_absolute} * sum);
+}
 
 struct VolumeBox {
   glm::vec3 low{0}, high{0};  // m, camera-relative

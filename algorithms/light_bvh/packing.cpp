@@ -1,18 +1,9 @@
 #include "algorithms/light_bvh/packing.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "algorithms/froxels/froxel_grid.h"
 
 namespace ml {
 namespace {
-
-// What rounding of distances in the shader may take, and what it takes here.
-float widened(const glm::vec3& center, float radius) {
-  return radius * widen_relative +
-         widen_absolute * (std::abs(center.x) + std::abs(center.y) + std::abs(center.z));
-}
 
 // The ball that holds the balls of these nodes, which stand from place `first` on, around the middle of their
 // box.
@@ -65,7 +56,7 @@ VolumeBox SpherePacking::pack(const SphereTree& tree, uint32_t node) {
   const std::span<const PackedNode> below = std::span(nodes_).subspan(place + 1);
   PackedNode packed = around_balls(below, static_cast<uint32_t>(place) + 1);
   if (const PackedNode ball = around_box(box); ball.radius < packed.radius) packed = ball;
-  packed.radius = widened(packed.center, packed.radius);
+  packed.radius = widened(packed.center, static_cast<double>(packed.radius));
   packed.miss = static_cast<uint32_t>(nodes_.size());
   packed.light = packed_inner;
   nodes_[place] = packed;

@@ -98,8 +98,10 @@ bool some_depth_in(float low, float high, float depth, bool here) {
       some = some || (low <= other && other <= high);
     }
   } else {
-    // Between the nearest and the farthest: no leaf is missed, some are taken in vain.
-    some = low <= subgroupMax(here ? depth : -any_depth) && subgroupMin(here ? depth : any_depth) <= high;
+    // Between the nearest and the farthest: no leaf is missed, some are taken in vain. As bits, which are in order for depths (> 0).
+    const uint bits = floatBitsToUint(max(depth, 0.0));
+    const uint nearest = lowest_of_all(here ? bits : 0xffffffffu), farthest = ~lowest_of_all(here ? ~bits : 0xffffffffu);
+    some = nearest <= farthest && low <= uintBitsToFloat(farthest) && uintBitsToFloat(nearest) <= high;
   }
   return some;
 }
@@ -144,7 +146,8 @@ bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint
   }
   first = subgroupShuffle(cursor.run_first, bit);
   count = subgroupShuffle(cursor.run_count, bit);
-  return here && subgroupShuffle(cursor.run_low, bit) <= cursor.depth && cursor.depth <= subgroupShuffle(cursor.run_high, bit);
+  const float low = subgroupShuffle(cursor.run_low, bit), high = subgroupShuffle(cursor.run_high, bit);
+  return here && low <= cursor.depth && cursor.depth <= high;
 }
 
 uint run_light(uint place) { return tree_lights[place]; }

@@ -37,7 +37,7 @@ std::vector<gpu::Constant> Effects::constants(const gpu::Device& device) const {
           {5, wedges},
           {6, boxes},
           {10, probes},
-          {11, limits.one_subgroup_size ? limits.subgroup_size : 0},
+          {11, limits.one_subgroup_size && !any_subgroup_size ? limits.subgroup_size : 0},
           {12, fetches_texels(device)}};
 }
 

@@ -41,6 +41,8 @@ struct Effects {
   // why); costs compile time. Shading loops go by what a frame's pixels walk (ShadedAlgorithm).
   bool long_lists = true;
   static constexpr uint32_t most_turns = 28000;
+  // Programs are made as for devices whose subgroups are large, or not all of one size: tests ask for it.
+  bool any_subgroup_size = false;
   bool long_walks = false;  // shading loops for long walks in every frame: tests ask for them
   // Those that are on, "omni" first.
   std::vector<std::string> names(const gpu::Device& device) const;
@@ -50,7 +52,7 @@ struct Effects {
     return 1u | (spots ? 2u : 0u) | (capsules ? 4u : 0u) | (wedges ? 8u : 0u) | (boxes ? 16u : 0u) |
            (probes ? 32u : 0u);
   }
-  // The specialization constants that shaders/light_eval.glsl asks for.
+  // The specialization constants that shaders/light_eval.glsl, subgroup_exchange.glsl and quads.glsl ask for.
   std::vector<gpu::Constant> constants(const gpu::Device& device) const;
 };
 

@@ -50,7 +50,7 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
       algorithm_(created(device, entry, parameters, effects)),
       names_(algorithm_->buffers()),
       effects_(effects),
-      together_(algorithm_->walks_together() && device.limits().subgroup_exchange),
+      together_(algorithm_->walks_together()),
       sampled_blocks_(device, entry.info.name + ": sampled blocks"),
       class_blocks_(device, entry.info.name + ": blocks by class") {
   for (const std::string& name : names_) buffers_.emplace_back(device, entry.info.name + ": " + name);

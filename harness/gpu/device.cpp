@@ -125,6 +125,15 @@ std::string missing_features(const vk::raii::PhysicalDevice& physical) {
   if (!v12.scalarBlockLayout) return "scalarBlockLayout";
   if (!v13.synchronization2) return "synchronization2";
   if (!v13.dynamicRendering) return "dynamicRendering";
+  const auto subgroups =
+      physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>()
+          .get<vk::PhysicalDeviceSubgroupProperties>();
+  const vk::SubgroupFeatureFlags exchange =
+      vk::SubgroupFeatureFlagBits::eVote | vk::SubgroupFeatureFlagBits::eBallot |
+      vk::SubgroupFeatureFlagBits::eShuffle | vk::SubgroupFeatureFlagBits::eArithmetic;
+  if (!(subgroups.supportedStages & vk::ShaderStageFlagBits::eCompute) ||
+      (subgroups.supportedOperations & exchange) != exchange)
+    return "votes, ballots, shuffles and arithmetic across subgroups in compute shaders";
   if (choose_queues(physical).main == UINT32_MAX) return "a queue for graphics and compute";
   return "";
 }
@@ -217,15 +226,10 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, const QueueCh
   result.group_count = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
                         limits.maxComputeWorkGroupCount[2]};
   const auto& subgroups = chain.get<vk::PhysicalDeviceSubgroupProperties>();
-  const vk::SubgroupFeatureFlags exchange =
-      vk::SubgroupFeatureFlagBits::eVote | vk::SubgroupFeatureFlagBits::eBallot |
-      vk::SubgroupFeatureFlagBits::eShuffle | vk::SubgroupFeatureFlagBits::eArithmetic;
   result.subgroup_size = subgroups.subgroupSize;
   const auto& sizes = chain.get<vk::PhysicalDeviceVulkan13Properties>();
   result.one_subgroup_size =
       sizes.minSubgroupSize == sizes.maxSubgroupSize && sizes.minSubgroupSize == subgroups.subgroupSize;
-  result.subgroup_exchange = (subgroups.supportedStages & vk::ShaderStageFlagBits::eCompute) &&
-                             (subgroups.supportedOperations & exchange) == exchange;
   result.push_constant_bytes = limits.maxPushConstantsSize;
   const std::vector<vk::QueueFamilyProperties> families = physical.getQueueFamilyProperties();
   result.timestamp_valid_bits = families[queues.main].timestampValidBits;

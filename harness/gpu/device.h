@@ -35,8 +35,6 @@ struct DeviceLimits {
   std::array<uint32_t, 3> group_count{};  // workgroups per dispatch
   uint32_t subgroup_size = 0;             // lanes
   bool one_subgroup_size = false;         // no program has subgroups of another size
-  bool subgroup_exchange =
-      false;  // votes, ballots, shuffles and arithmetic across a subgroup in compute shaders
   uint32_t push_constant_bytes = 0;
   uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
   // The same of the second queue; the main one's where there is no second. Each queue family has its own.

@@ -1,6 +1,8 @@
 // The museum's lists as its description has them. Their lengths were given without the test that made them;
-// of those that can be asked for, rectangles of the lights' smallest balls before pruning, and lights that
-// reach a surface facing them after it, give all of them at once.
+// of those that can be asked for, rectangles of the lights' smallest balls before pruning and lights that
+// reach a surface facing them after it come nearest to all: over 16 frames 31 lights a tile (30.7) and most
+// 84 (67), 2.2 (2.4) and most 17 (16) after pruning; with 400 lights 37 % of the tiles have more than 64 (45
+// %), and most are 35 (36) after it.
 #include <numeric>
 
 #include "tests/end_to_end/program.h"
@@ -22,7 +24,7 @@ TEST(MuseumLists, AreAsLongAsTheDescriptionHasThem) {
                        {"bounds", "ball"},
                        {"tile_depths", false},
                        {"caps", "paper"}};
-  const std::vector<std::pair<std::string, json>> changes = {{"camera.frames", 8},
+  const std::vector<std::pair<std::string, json>> changes = {{"camera.frames", 16},
                                                              {"measure.repeats", 1},
                                                              {"measure.warmup", 0},
                                                              {"algorithms", json::array({pruned})},

@@ -94,7 +94,7 @@ TEST_F(HardCases, FinePruned_CountsAroundChunksAndBatches) {
 
 TEST_F(HardCases, FinePruned_SixtyFiveThousandLightsInOneTile) {
   PrunedCheck check(floor_at({0, 0, 0}, 100), 8, 8, all_shapes(true));
-  for (uint32_t count : {65535u, 65536u, 65537u}) {
+  for (uint32_t count : {65535u, 65536u, 65537u, 100000u, 170000u}) {
     SCOPED_TRACE(testing::Message() << count << " lights");
     std::vector<Light> lights(count, omni({0, 2, 0}, 50, 1e-3f));
     for (uint32_t i = 0; i < count; i += 3) lights[i] = spot({0, 2, 0}, 50, {0, -1, 0}, 80, 89);
@@ -106,6 +106,24 @@ TEST_F(HardCases, FinePruned_SixtyFiveThousandLightsInOneTile) {
       EXPECT_EQ(run.frame.mismatched_pixels, 0u);
     }
   }
+}
+
+// The smaller ball around such a spot reaches 1.4 times its radius towards the camera, and would cover 2.6
+// times the tiles that the CPU makes room for.
+TEST_F(HardCases, FinePruned_SpotsThatPointAtTheCameraFitTheRoomOfTheirLists) {
+  constexpr uint32_t size = 160;
+  PrunedCheck check(floor_at({0, 0, 0}, 100), size, size);
+  Projection wide;
+  wide.left = wide.bottom = -2;
+  wide.right = wide.top = 2;
+  const std::vector<Light> lights(400, spot({0, 0.5, 0}, 1.5625f, {0, 1, 0}, 44, 45));
+  check.load(Camera::look_at({0, 3, 0}, {0, 0, 1e-3}, wide), lights);
+  const PrunedRun run = check.run({"exact", "coarse", "subgroup", "ball", false});
+  const auto walked = std::ranges::count(run.counts.listed, lights.size());
+  EXPECT_EQ(std::ranges::count(run.counts.listed, 0u) + walked, size * size);
+  // Slope 0.8 of 2 to each side, and the tiles that are met in part.
+  EXPECT_GE(walked, size * size * 16 / 100);
+  EXPECT_LE(walked, size * size * 36 / 100);
 }
 
 TEST_F(HardCases, FinePruned_SixtyFiveThousandLightsOfAllShapes) {

@@ -1,4 +1,5 @@
-// Light data and trees from storage buffers and from texel buffers (shading.light_fetch): the same bits.
+// How programs read lights and trees: from storage buffers and from texel buffers (shading.light_fetch), handed around
+// small subgroups and not. The same bits.
 #include <gtest/gtest.h>
 
 #include "harness/accuracy/image_metrics.h"
@@ -18,6 +19,17 @@ Effects fetched(bool texels, bool long_lists) {
   return effects;
 }
 
+void expect_same(const Seen& one, const Seen& other) {
+  ASSERT_EQ(one.counts.size(), other.counts.size());
+  for (size_t i = 0; i < one.counts.size(); ++i) {
+    SCOPED_TRACE(every_algorithm()[i].text());
+    EXPECT_EQ(one.counts[i].tested, other.counts[i].tested);
+    EXPECT_EQ(one.counts[i].nodes, other.counts[i].nodes);
+    EXPECT_EQ(one.counts[i].hash, other.counts[i].hash);
+  }
+  EXPECT_EQ(compare_images(one.image, other.image).differing_bits, 0u);
+}
+
 TEST_F(LightFetch, BothWaysGiveTheSameBitsWithEveryAlgorithm) {
   const Camera camera = camera_at({-3, 5, 22}, {-2, 1, 0}, width, height);
   std::vector<Light> lights = mixed_shapes(300, {-25, 0, -20}, {25, 7, 18}, 1, 12, 3);
@@ -28,15 +40,21 @@ TEST_F(LightFetch, BothWaysGiveTheSameBitsWithEveryAlgorithm) {
     Exactness texels(yard(), width, height, fetched(true, long_lists));
     const Seen one = storage.expect_trials(camera, lights, every_algorithm(), 12);
     const Seen other = texels.expect_trials(camera, lights, every_algorithm(), 12);
-    ASSERT_EQ(one.counts.size(), other.counts.size());
-    for (size_t i = 0; i < one.counts.size(); ++i) {
-      SCOPED_TRACE(every_algorithm()[i].text());
-      EXPECT_EQ(one.counts[i].tested, other.counts[i].tested);
-      EXPECT_EQ(one.counts[i].nodes, other.counts[i].nodes);
-      EXPECT_EQ(one.counts[i].hash, other.counts[i].hash);
-    }
-    EXPECT_EQ(compare_images(one.image, other.image).differing_bits, 0u);
+    expect_same(one, other);
   }
+}
+
+// What devices with larger subgroups run: their own votes, and lights fetched where they are needed.
+TEST_F(LightFetch, ProgramsForSubgroupsOfAnySizeGiveTheSameBits) {
+  const Camera camera = camera_at({-3, 5, 22}, {-2, 1, 0}, width, height);
+  std::vector<Light> lights = mixed_shapes(300, {-25, 0, -20}, {25, 7, 18}, 1, 12, 3);
+  for (size_t i = 0; i < lights.size(); i += 7) lights[i].probe = true;
+  Effects any = fetched(false, false);
+  any.any_subgroup_size = true;
+  Exactness known(yard(), width, height, fetched(false, false)), unknown(yard(), width, height, any);
+  const Seen one = known.expect_trials(camera, lights, every_algorithm(), 12);
+  const Seen other = unknown.expect_trials(camera, lights, every_algorithm(), 12);
+  expect_same(one, other);
 }
 
 // A buffer of a single light is as small as buffers get.

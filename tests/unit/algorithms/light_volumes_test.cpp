@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-// The light as the GPU has it: axes and extents rounded to float.
+// The light where the GPU has it: its position rounded to float.
 Light as_stored(const Light& light, const FrameLights& lights, uint32_t i) {
   Light stored = light;
   stored.position = glm::dvec3(lights.x[i], lights.y[i], lights.z[i]);
