@@ -1,5 +1,5 @@
-// How programs read lights and trees: from storage buffers and from texel buffers (shading.light_fetch), handed around
-// small subgroups and not. The same bits.
+// How programs read lights and trees: from storage buffers and from texel buffers (shading.light_fetch),
+// handed around small subgroups and not. The same bits.
 #include <gtest/gtest.h>
 
 #include "harness/accuracy/image_metrics.h"
