@@ -7,15 +7,13 @@
 // In a flow that all threads of the workgroup take, as add_depths().
 #define SET_BITS(word, bits)                                                 \
   {                                                                          \
-    const uint of_subgroup = bits_of_subgroup(bits);                         \
+    const uint of_subgroup = bits_of_all(bits);                              \
     if (speaks_for_subgroup() && of_subgroup != 0u) atomicOr(word, of_subgroup); \
   }
 
 shared uint depth_low, depth_high;  // bits of depths, which are positive and so in order
 
 bool speaks_for_subgroup() { return small_subgroup ? gl_SubgroupInvocationID == 0u : subgroupElect(); }
-
-uint bits_of_subgroup(uint bits) { return small_subgroup ? bits_of_all(bits) : subgroupOr(bits); }
 
 // Before the first add_depths(), and a barrier between.
 void clear_depths() {
