@@ -14,13 +14,17 @@ void cell_depth_extents(const FroxelGrid& grid, std::vector<FroxelGrid::DepthRan
   for (FroxelGrid::DepthRange& extent : extents) extent.high = std::max(extent.high, extent.low);
 }
 
-void Forest::build(const FroxelLists& lists, const ForestSettings& settings, Threads& threads) {
+void Forest::build(const FroxelLists& lists, const ForestSettings& settings, Threads& threads,
+                   TreeNode* in_place) {
   const uint32_t cells = lists.grid().cells();
   cell_depth_extents(lists.grid(), cell_depths_);
   cells_.resize(cells);
   // Chunks of about as many list entries each, so that threads have alike work.
   chunk_count_ = threads.count() == 1 ? 1 : std::clamp<size_t>(cells / 64, 1, size_t{threads.count()} * 8);
-  if (chunks_.size() < chunk_count_) chunks_.resize(chunk_count_);
+  if (chunks_.size() < chunk_count_) {
+    chunks_.resize(chunk_count_);
+    own_nodes_.resize(chunk_count_);
+  }
   const auto offsets = lists.offsets();
   for (size_t c = 0; c < chunk_count_; ++c) {
     auto place = [&](size_t chunk) {
@@ -33,7 +37,15 @@ void Forest::build(const FroxelLists& lists, const ForestSettings& settings, Thr
     chunks_[c].end_cell = place(c + 1);
   }
   threads.for_each(chunk_count_, [&](size_t c) {
-    simd::build_chunk(lists, settings, cell_depths_, cells_.data(), chunks_[c]);
+    ForestChunk& chunk = chunks_[c];
+    if (chunk_count_ == 1 && in_place) {
+      chunk.nodes = in_place;
+    } else {
+      reserve_padded(own_nodes_[c], node_room(settings, offsets[chunk.end_cell] - offsets[chunk.first_cell],
+                                              chunk.end_cell - chunk.first_cell));
+      chunk.nodes = own_nodes_[c].data();
+    }
+    simd::build_chunk(lists, settings, cell_depths_, cells_.data(), chunk);
   });
   nodes_ = list_cells_ = tree_cells_ = 0;
   for (size_t c = 0; c < chunk_count_; ++c) {
@@ -59,8 +71,8 @@ void Forest::build(const FroxelLists& lists, const ForestSettings& settings, Thr
 void Forest::copy_nodes(TreeNode* to, Threads& threads) const {
   threads.for_each(chunk_count_, [&](size_t c) {
     const ForestChunk& chunk = chunks_[c];
-    if (chunk.count > 0)
-      std::memcpy(to + chunk.first_node, chunk.nodes.data(), chunk.count * sizeof(TreeNode));
+    if (chunk.count > 0 && chunk.nodes != to)
+      std::memcpy(to + chunk.first_node, chunk.nodes, chunk.count * sizeof(TreeNode));
   });
 }
 

@@ -14,11 +14,19 @@ namespace ml {
 
 class Forest {
  public:
-  void build(const FroxelLists& lists, const ForestSettings& settings, Threads& threads);
+  // Nodes that the lists' trees take at most.
+  static uint64_t room(const FroxelLists& lists, const ForestSettings& settings) {
+    return node_room(settings, lists.entries().size(), lists.grid().cells());
+  }
+
+  // With `in_place`, of room() elements, a single thread writes the nodes there; else they are in memory of
+  // the forest. copy_nodes() sees to it that they are there.
+  void build(const FroxelLists& lists, const ForestSettings& settings, Threads& threads,
+             gpu_data::TreeNode* in_place = nullptr);
 
   std::span<const gpu_data::TreeCell> cells() const { return cells_; }
   uint64_t nodes() const { return nodes_; }
-  // Writes all nodes; `to` has nodes() elements.
+  // Writes all nodes; `to` has nodes() elements, or is where they were built.
   void copy_nodes(gpu_data::TreeNode* to, Threads& threads) const;
 
   // Cells with lights that are a list or a tree.
@@ -27,6 +35,7 @@ class Forest {
 
  private:
   std::vector<ForestChunk> chunks_;
+  std::vector<std::vector<gpu_data::TreeNode>> own_nodes_;  // of each chunk
   size_t chunk_count_ = 0;
   std::vector<FroxelGrid::DepthRange> cell_depths_;
   std::vector<gpu_data::TreeCell> cells_;

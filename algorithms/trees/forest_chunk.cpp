@@ -20,8 +20,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using gpu_data::TreeCell;
 using gpu_data::TreeNode;
-// No wider than a leaf of the usual eight lights.
-using Floats = hn::CappedTag<float, 8>;
+// No wider than a leaf of the usual eight lights, of two depths each.
+using Floats = hn::CappedTag<float, 16>;
 using Signed = hn::RebindToSigned<Floats>;
 using VF = hn::Vec<Floats>;
 using VI = hn::Vec<Signed>;
@@ -33,6 +33,15 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 HWY_INLINE uint32_t packed(bool leaf, uint32_t lights, uint32_t skip) {
   assert(lights <= ML_TREE_MAX_LEAF_LIGHTS && skip < 1u << 15);
   return (leaf ? ML_TREE_LEAF : 0) | lights << ML_TREE_COUNT_SHIFT | skip << ML_TREE_SKIP_SHIFT;
+}
+
+constexpr DepthReach nothing{-infinity, -infinity};
+
+HWY_INLINE DepthReach either(DepthReach a, DepthReach b) {
+  return {std::max(a.minus_low, b.minus_low), std::max(a.high, b.high)};
+}
+HWY_INLINE TreeNode node_of(DepthReach bounds, uint32_t first_or_below, uint32_t packed) {
+  return {-bounds.minus_low, bounds.high, first_or_below, packed};
 }
 
 // Sum of parts of a cell's depth, in steps.
@@ -47,7 +56,7 @@ struct StepSum {
 template <bool summed>
 HWY_INLINE DepthReach leaf_reach(const DepthReach* reaches, uint32_t count, DepthReach clip, float steps,
                                  StepSum& sum) {
-  DepthReach all{-infinity, -infinity};
+  DepthReach all = nothing;
   for (uint32_t i = 0; i < count; ++i) {
     all.minus_low = std::max(all.minus_low, reaches[i].minus_low);
     all.high = std::max(all.high, reaches[i].high);
@@ -87,51 +96,53 @@ struct StepSum {
   }
 };
 
+// The largest minus_low and high of the pairs in a vector.
+template <class D>
+HWY_INLINE DepthReach largest(D d, hn::Vec<D> pairs) {
+  if constexpr (hn::MaxLanes(d) > 4) {
+    const hn::Half<D> half;
+    return largest(half, hn::Max(hn::LowerHalf(half, pairs), hn::UpperHalf(half, pairs)));
+  } else {
+    const auto all = hn::Max(pairs, hn::Shuffle1032(pairs));
+    return {hn::GetLane(all), hn::GetLane(hn::Shuffle2301(all))};
+  }
+}
+
 // The same, pairs side by side in the lanes: with the low end negated both ends are treated alike. Whole
 // vectors are read, what is behind the last light in vain.
 template <bool summed>
 HWY_INLINE DepthReach leaf_reach(const DepthReach* reaches, uint32_t count, DepthReach clip, float steps,
                                  StepSum& sum) {
   constexpr uint32_t pairs = static_cast<uint32_t>(hn::MaxLanes(df)) / 2;
-  const VF nothing = hn::Set(df, -infinity), step = hn::Set(df, steps);
+  const VF none = hn::Set(df, -infinity), step = hn::Set(df, steps);
   const VF ends = hn::OddEven(hn::Set(df, clip.high), hn::Set(df, clip.minus_low));
-  VF all = nothing;
+  VF all = none;
+  const auto add = [&](VF reach) HWY_ATTR {
+    all = hn::Max(all, reach);
+    if (!summed) return;
+    const VF clipped = hn::Min(reach, ends);
+    const VF inside = hn::Max(hn::Add(clipped, hn::Shuffle2301(clipped)), hn::Zero(df));
+    sum.add(hn::Mul(inside, step));
+  };
   if (summed) sum.reserve(count);
-  // Eight lights at once, so that a leaf of no more has no loop.
   uint32_t i = 0;
-  do {
-    for (uint32_t k = i; k < i + 8; k += pairs) {
-      const uint32_t left = count > k ? count - k : 0;
-      const VF reach =
-          hn::IfThenElse(hn::FirstN(df, 2 * left), hn::LoadU(df, &reaches[k].minus_low), nothing);
-      all = hn::Max(all, reach);
-      if (!summed) continue;
-      const VF clipped = hn::Min(reach, ends);
-      const VF inside = hn::Max(hn::Add(clipped, hn::Shuffle2301(clipped)), hn::Zero(df));
-      sum.add(hn::Mul(inside, step));
-    }
-    i += 8;
-  } while (i < count);
-  all = hn::Max(all, hn::ReverseBlocks(df, all));
-  all = hn::Max(all, hn::Shuffle1032(all));
-  return {hn::GetLane(all), hn::GetLane(hn::Shuffle2301(all))};
+  // Whole leaves of the usual eight lights have no mask, and no loop where a vector has 16 lanes.
+  for (; i + pairs <= count; i += pairs) add(hn::LoadU(df, &reaches[i].minus_low));
+  if (i < count)
+    add(hn::IfThenElse(hn::FirstN(df, 2 * (count - i)), hn::LoadU(df, &reaches[i].minus_low), none));
+  return largest(df, all);
 }
 #endif
 
-// Bounds of every leaf's lights into chunk.low and chunk.high; returns the sum of all lights' depths clipped
-// to the cell, in steps.
-HWY_INLINE uint64_t bound_leaves(ForestChunk& chunk, const DepthReach* reaches, uint32_t count,
-                                 uint32_t per_leaf, FroxelGrid::DepthRange extent) {
+// Bounds of every leaf's lights into bounds[leaf]; returns the sum of all lights' depths clipped to the cell,
+// in steps.
+HWY_INLINE uint64_t bound_leaves(const DepthReach* reaches, uint32_t count, uint32_t per_leaf,
+                                 FroxelGrid::DepthRange extent, DepthReach* bounds) {
   const DepthReach clip{-extent.low, extent.high};
   const float steps = extent_steps(extent);
   StepSum sum;
-  float *low = chunk.low.data(), *high = chunk.high.data();
-  for (uint32_t begin = 0, leaf = 0; begin < count; begin += per_leaf, ++leaf) {
-    const DepthReach reach =
-        leaf_reach<true>(reaches + begin, std::min(per_leaf, count - begin), clip, steps, sum);
-    low[leaf] = -reach.minus_low;
-    high[leaf] = reach.high;
-  }
+  for (uint32_t begin = 0; begin < count; begin += per_leaf)
+    *bounds++ = leaf_reach<true>(reaches + begin, std::min(per_leaf, count - begin), clip, steps, sum);
   return sum.total();
 }
 
@@ -150,53 +161,58 @@ HWY_INLINE void collect(std::span<const uint32_t> lights, size_t count, const De
 }
 
 // What a list is: one leaf, or where its count field is too small several, one after the other.
-HWY_INLINE size_t write_list(const ForestChunk& chunk, uint32_t lights, uint32_t first, uint32_t per_leaf,
+HWY_INLINE size_t write_list(const DepthReach* bounds, uint32_t lights, uint32_t first, uint32_t per_leaf,
                              TreeNode* nodes) {
   size_t count = 0;
   const uint32_t most = ML_TREE_MAX_LEAF_LIGHTS / per_leaf * per_leaf;
   for (uint32_t begin = 0; begin < lights; begin += most) {
     const uint32_t part = std::min(lights - begin, most);
-    float low = infinity, high = -infinity;
-    for (uint32_t leaf = begin / per_leaf; leaf * per_leaf < begin + part; ++leaf) {
-      low = std::min(low, chunk.low[leaf]);
-      high = std::max(high, chunk.high[leaf]);
-    }
-    nodes[count++] = {low, high, first + begin, packed(true, part, 1)};
+    DepthReach all = nothing;
+    for (uint32_t leaf = begin / per_leaf; leaf * per_leaf < begin + part; ++leaf)
+      all = either(all, bounds[leaf]);
+    nodes[count++] = node_of(all, first + begin, packed(true, part, 1));
   }
   return count;
 }
 
-// Bottom-up from the leaves' bounds, every level from the one below it; each node goes to its depth-first
-// place. Returns the number of nodes.
-HWY_INLINE size_t write_tree(ForestChunk& chunk, uint32_t lights, uint32_t first, uint32_t per_leaf,
+// The nodes without lights that fill up a tree.
+void write_padding(uint32_t height, uint32_t lights, uint32_t per_leaf, TreeNode* nodes) {
+  for (uint32_t level = 0; level <= height; ++level) {
+    const uint32_t used = (lights - 1) / (per_leaf << (height - level)) + 1;
+    const uint32_t word = packed(level == height, 0, (2u << (height - level)) - 1);
+    for (uint32_t index = used; index < 1u << level; ++index)
+      nodes[depth_first_place(height, level, index)] = node_of(nothing, 0, word);
+  }
+}
+
+// Bottom-up from the leaves' bounds, every level from the one below it and in its place; each node goes to
+// its depth-first place. Of `bounds` there is one more than leaves. Returns the number of nodes.
+HWY_INLINE size_t write_tree(DepthReach* bounds, uint32_t lights, uint32_t first, uint32_t per_leaf,
                              bool trim, TreeNode* nodes) {
-  const uint32_t used = (lights + per_leaf - 1) / per_leaf, leaves = std::bit_ceil(used);
+  uint32_t used = (lights + per_leaf - 1) / per_leaf;
+  const uint32_t leaves = std::bit_ceil(used);
   const auto height = static_cast<uint32_t>(std::countr_zero(leaves));
   assert(leaves <= ML_TREE_MAX_LEAVES);
-  float *low = chunk.low.data(), *high = chunk.high.data();
-  for (uint32_t leaf = 0; leaf < used; ++leaf) {
-    const uint32_t begin = leaf * per_leaf, count = std::min(per_leaf, lights - begin);
-    nodes[depth_first_place(height, height, leaf)] = {low[leaf], high[leaf], first + begin,
-                                                      packed(true, count, 1)};
-  }
-  for (uint32_t leaf = used; leaf < leaves; ++leaf) {
-    low[leaf] = infinity;
-    high[leaf] = -infinity;
-    nodes[depth_first_place(height, height, leaf)] = {infinity, -infinity, 0, packed(true, 0, 1)};
-  }
+  const size_t trimmed = depth_first_place(height, height, used - 1) + 1;
+  for (uint32_t leaf = 0; leaf < used; ++leaf)
+    nodes[depth_first_place(height, height, leaf)] =
+        node_of(bounds[leaf], first + leaf * per_leaf, packed(true, per_leaf, 1));
+  nodes[trimmed - 1].packed = packed(true, lights - (used - 1) * per_leaf, 1);
   uint32_t lights_below = per_leaf;
   for (uint32_t level = height; level-- > 0;) {
     lights_below *= 2;
-    const uint32_t skip = (2u << (height - level)) - 1;
-    for (uint32_t index = 0; index < 1u << level; ++index) {
-      low[index] = std::min(low[2 * index], low[2 * index + 1]);
-      high[index] = std::max(high[2 * index], high[2 * index + 1]);
-      const uint32_t begin = std::min(index * lights_below, lights);
-      nodes[depth_first_place(height, level, index)] = {
-          low[index], high[index], std::min(lights_below, lights - begin), packed(false, 0, skip)};
+    const uint32_t word = packed(false, 0, (2u << (height - level)) - 1);
+    bounds[used] = nothing;
+    used = (used + 1) / 2;
+    for (uint32_t index = 0; index < used; ++index) {
+      bounds[index] = either(bounds[2 * index], bounds[2 * index + 1]);
+      nodes[depth_first_place(height, level, index)] = node_of(bounds[index], lights_below, word);
     }
+    nodes[depth_first_place(height, level, used - 1)].first_or_below = lights - (used - 1) * lights_below;
   }
-  return trim ? depth_first_place(height, height, used - 1) + 1 : 2 * leaves - 1;
+  if (trim) return trimmed;
+  write_padding(height, lights, per_leaf, nodes);
+  return 2 * leaves - 1;
 }
 
 void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
@@ -205,6 +221,8 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
   const uint32_t* offsets = lists.offsets().data();
   const std::span<const uint32_t> entries = lists.entries();
   const DepthReach* reach_of_light = lists.reach_of_light().data();
+  reserve_padded(chunk.bounds, lists.longest() / settings.lights_per_leaf + 2);
+  DepthReach* bounds = chunk.bounds.data();
   StepSum unused;
   size_t count = 0;
   chunk.list_cells = chunk.tree_cells = 0;
@@ -221,32 +239,27 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
     if (longest > short_list || settings.list_nodes) {
       reserve_padded(chunk.reaches, row_lights);
       collect(entries.subspan(row_first), row_lights, reach_of_light, chunk.reaches.data());
-      // Room for full trees of twice the leaves, or the nodes of lists.
-      const size_t leaves = row_lights / settings.lights_per_leaf + columns;
-      reserve_padded(chunk.low, 2 * leaves);
-      reserve_padded(chunk.high, 2 * leaves);
-      reserve_padded(chunk.nodes, count + 4 * leaves);
     }
     const DepthReach* reaches = chunk.reaches.data();
     for (; cell < row_end; ++cell) {
       const uint32_t first = offsets[cell], lights = offsets[cell + 1] - first;
-      TreeNode* nodes = chunk.nodes.data() + count;
+      TreeNode* nodes = chunk.nodes + count;
       size_t written = 0;
       if (lights > short_list) {
         const uint32_t per_leaf = leaf_size(settings.lights_per_leaf, lights);
-        const uint64_t sum = bound_leaves(chunk, reaches + (first - row_first), lights, per_leaf, extent);
+        const uint64_t sum = bound_leaves(reaches + (first - row_first), lights, per_leaf, extent, bounds);
         const bool tree = lights > per_leaf && is_tree(sum, lights, settings.threshold);
         if (tree)
-          written = write_tree(chunk, lights, first, per_leaf, settings.trim_padding, nodes);
+          written = write_tree(bounds, lights, first, per_leaf, settings.trim_padding, nodes);
         else if (settings.list_nodes)
-          written = write_list(chunk, lights, first, per_leaf, nodes);
+          written = write_list(bounds, lights, first, per_leaf, nodes);
         chunk.tree_cells += tree;
         chunk.list_cells += !tree;
       } else {
         chunk.list_cells += lights > 0;
         if (settings.list_nodes && lights > 0) {
-          const DepthReach bounds = leaf_reach<false>(reaches + (first - row_first), lights, {}, 0, unused);
-          *nodes = {-bounds.minus_low, bounds.high, first, packed(true, lights, 1)};
+          const DepthReach all = leaf_reach<false>(reaches + (first - row_first), lights, {}, 0, unused);
+          *nodes = node_of(all, first, packed(true, lights, 1));
           written = 1;
         }
       }

@@ -28,14 +28,13 @@ struct ForestSettings {
 
 struct ForestChunk {
   uint32_t first_cell = 0, end_cell = 0;
-  std::vector<gpu_data::TreeNode> nodes;
-  size_t count = 0;         // of nodes in use
-  uint64_t first_node = 0;  // of all nodes
+  gpu_data::TreeNode* nodes = nullptr;  // room for node_room() of them
+  size_t count = 0;                     // of nodes written
+  uint64_t first_node = 0;              // of all nodes
   uint64_t list_cells = 0, tree_cells = 0;
   // Scratch: the depths of the lights in one row of froxels, and the bounds of one cell's tree level by
   // level.
-  std::vector<DepthReach> reaches;
-  std::vector<float> low, high;
+  std::vector<DepthReach> reaches, bounds;
 };
 
 namespace simd {
@@ -50,6 +49,12 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
 inline uint32_t leaf_size(uint32_t asked, uint32_t lights) {
   if (lights <= asked * ML_TREE_MAX_LEAVES) return asked;
   return (lights + 8 * ML_TREE_MAX_LEAVES - 1) / (8 * ML_TREE_MAX_LEAVES) * 8;
+}
+
+// Nodes that cells with so many list entries take at most: a tree has more lights than a leaf, and padding
+// gives it up to 3.75 nodes for a leaf's lights.
+inline uint64_t node_room(const ForestSettings& settings, uint64_t entries, uint64_t cells) {
+  return 4 * (entries / settings.lights_per_leaf + 1) + (settings.list_nodes ? cells : 0);
 }
 
 // Place of a node in a full binary tree of 2^height leaves stored depth first: node `index` of level `level`

@@ -11,7 +11,21 @@
 namespace ml {
 namespace {
 
+using gpu_data::TreeNode;
+
 enum Slot : uint32_t { grid_slot, cells_slot, nodes_slot, indices_slot };
+
+TreeNode* map_nodes(UploadMemory& memory, uint64_t nodes) {
+  return reinterpret_cast<TreeNode*>(memory.map(nodes_slot, nodes * sizeof(TreeNode)).data());
+}
+
+// Where the nodes can be built so that none has to be copied, or null. How many they will be is not known
+// yet, so there must be room for the most.
+TreeNode* nodes_in_place(UploadMemory& memory, uint64_t room) {
+  map_nodes(memory, 0);
+  if (!memory.cached(nodes_slot) || room * sizeof(TreeNode) > memory.limit()) return nullptr;
+  return map_nodes(memory, room);
+}
 
 }  // namespace
 
@@ -24,10 +38,10 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
   lists_.build(frame, froxels_, memory, indices_slot, spans);
   {
     auto span = spans.span("build");
-    forest_.build(lists_, trees_, *frame.threads);
+    forest_.build(lists_, trees_, *frame.threads, nodes_in_place(memory, Forest::room(lists_, trees_)));
     classify_tiles();
   }
-  const uint64_t node_bytes = forest_.nodes() * sizeof(gpu_data::TreeNode);
+  const uint64_t node_bytes = forest_.nodes() * sizeof(TreeNode);
   if (node_bytes > memory.limit())
     throw SystemError(
         fmt::format("{}: the trees would take {} bytes, the device's buffer holds {}; use fewer lights, "
@@ -40,8 +54,7 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
   std::memcpy(memory.map(grid_slot, sizeof header).data(), &header, sizeof header);
   const auto cells = forest_.cells();
   std::memcpy(memory.map(cells_slot, cells.size_bytes()).data(), cells.data(), cells.size_bytes());
-  forest_.copy_nodes(reinterpret_cast<gpu_data::TreeNode*>(memory.map(nodes_slot, node_bytes).data()),
-                     *frame.threads);
+  forest_.copy_nodes(map_nodes(memory, forest_.nodes()), *frame.threads);
   lists_.upload_entries(memory, indices_slot);
 
   counters_.in_frustum = lists_.lights_in_frustum();

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
 #include <vector>
 
@@ -108,6 +110,36 @@ TEST(Forest, FastPathGivesTheReferencesBits) {
                   fast.first_or_below == plain.first_or_below && fast.packed == plain.packed)
           << "seed " << seed << ", node " << i;
     }
+  }
+}
+
+// Trees of one leaf more than a power of two take the most room for their lights.
+TEST(Forest, BuiltInPlaceTheyAreTheSameAndKeepToTheirRoom) {
+  for (uint32_t seed = 0; seed < 300; ++seed) {
+    Random random(5000 + seed);
+    Camera camera = random_camera(random);
+    const bool one_cell = seed % 2 != 0;
+    ForestSettings settings = random_forest(random);
+    const uint32_t full = settings.lights_per_leaf << random.below(6);
+    const auto lights = one_cell ? random_small_lights(random, full + random.below(2), camera)
+                                 : random_lights(random, random.below(800), camera);
+    const uint32_t side = one_cell ? 16 : 1 + random.below(300);
+    BinningFrame fixture(lights, camera, side, side);
+    FroxelSettings froxels = random_settings(random);
+    if (one_cell) froxels.tile = 16, froxels.slices = 1;
+    const Trees trees(fixture.frame, froxels, settings);
+    const TreeNode untouched{1, 2, 3, 4};
+    const size_t room = Forest::room(trees.lists, settings);
+    std::vector<TreeNode> nodes(room + 1000, untouched);
+    Forest in_place;
+    in_place.build(trees.lists, settings, *fixture.frame.threads, nodes.data());
+    ASSERT_LE(in_place.nodes(), room) << "seed " << seed;
+    in_place.copy_nodes(nodes.data(), *fixture.frame.threads);
+    const auto bytes = [](const TreeNode& node) { return std::bit_cast<std::array<std::byte, 16>>(node); };
+    const auto begin = nodes.begin(), end = begin + static_cast<ptrdiff_t>(in_place.nodes());
+    EXPECT_TRUE(std::ranges::equal(std::span(begin, end), trees.nodes, {}, bytes, bytes)) << "seed " << seed;
+    for (size_t i = room; i < nodes.size(); ++i)
+      ASSERT_EQ(bytes(nodes[i]), bytes(untouched)) << "seed " << seed << ", node " << i;
   }
 }
 
@@ -226,7 +258,7 @@ TEST(Forest, AFrameWithFewerLightsLeavesNothingBehind) {
   std::vector<Light> many = random_lights(random, 5000, camera), few(many.begin(), many.begin() + 10);
   BinningFrame large(many, camera, 640, 360), small(few, camera, 64, 64);
   TreePrepare reused("test", {}, {}), fresh("test", {}, {});
-  PlainMemory reused_memory, fresh_memory;
+  PlainMemory reused_memory, fresh_memory(false);
   Spans spans;
   reused.prepare(large.frame, reused_memory, spans);
   reused.prepare(small.frame, reused_memory, spans);
