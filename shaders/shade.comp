@@ -7,7 +7,8 @@
 //   CURSOR_MORE(cursor)  false when light_next() will find nothing, where that is known beforehand;
 //   CURSOR_RUNS          the pixels of a subgroup can walk the lights of a cell together (shade_together.glsl), by
 //                        uint light_cell(SurfacePoint), LightCursor cell_begin(uint cell, float depth, bool counted),
-//                        uint light_next_runs(inout LightCursor, bool here, out bool more)  the next runs of lights, a bit for each,
+//                        uint light_first_runs(inout LightCursor, bool here)  the first runs of lights, a bit for each; 0: there are none,
+//                        uint light_next_runs(inout LightCursor, bool here)  those that follow,
 //                        bool light_run(LightCursor, uint bit, bool here, out uint first, out uint count)  a run, and whether the pixel wants it,
 //                        uint run_light(uint place)  a light of a run;
 //   CURSOR_CASES         with cursor_case(), light_next_in_list() and light_next_shared(): subgroups whose pixels have something in common
@@ -30,7 +31,7 @@ layout(binding = BIND_FORWARD) uniform usampler2D Forward;
 layout(local_size_x = 8, local_size_y = 8) in;
 // The pixels of a subgroup walk lights together: needs votes, shuffles and arithmetic across the subgroup, and a cursor that can.
 layout(constant_id = 7) const bool WALK_TOGETHER = false;
-layout(scalar, binding = BIND_BLOCKS) readonly buffer Blocks { uvec2 blocks[]; };
+layout(scalar, binding = BIND_BLOCKS) readonly buffer Blocks { uint blocks[]; };  // column | row << 16
 layout(push_constant, scalar) uniform BlockRange { uint first_block; };  // where the dispatch begins in the list
 // Pixels that are lit forward are left out, and black until the forward pass has lit them.
 layout(constant_id = 8) const bool EFFECT_FORWARD = false;
@@ -165,7 +166,8 @@ uvec2 place_in_block(uint thread) {
 }
 
 void main() {
-  const uvec2 pixel = blocks[first_block + gl_WorkGroupID.x] * 8u + place_in_block(gl_LocalInvocationIndex);
+  const uint block = blocks[first_block + gl_WorkGroupID.x];
+  const uvec2 pixel = uvec2(block & 0xffffu, block >> 16) * 8u + place_in_block(gl_LocalInvocationIndex);
   const bool inside = all(lessThan(pixel, view.resolution));
   VEC3 sum = VEC3(0);
   SurfacePoint point;

@@ -32,32 +32,59 @@ void add_lane(SurfacePoint point, LightCore own, LightExtra own_extra, inout uin
   contributing &= contributing - 1u;
 }
 
-// Tests and shades the lights of one run for the pixels that want them. Each lane fetches one light, and hands it to the others when its turn
-// comes, so that a light is fetched once for all of them. Lights that contribute are remembered as bits, and shaded when the batch is tested: in
-// the order of the run, as everywhere. `count` is not 0. No lane leaves before all are done, for none may be missing in a shuffle. Several lights a turn, and
-// loops that end where they have run: turns are short on some drivers (light_eval.glsl, LONG_LISTS).
-void shade_run(SurfacePoint point, uint first, uint count, bool wanted, inout VEC3 sum) {
-  const uint lanes = min(subgroup_lanes(), 32u);
-  uint begin = 0u;
-  do {
-    const uint batch = min(count - begin, lanes);
-    const LightCore own = CURSOR_LIGHT(run_light(first + begin + min(gl_SubgroupInvocationID, batch - 1u)));
-    LightExtra own_extra;
-    if (extras_go_along) own_extra = extra_ahead(own);
-    uint contributing = 0u, i = 0u;
+void test_four(SurfacePoint point, LightCore own, LightExtra own_extra, uint lane, uint batch, bool wanted, inout uint contributing) {
+  test_lane(point, own, own_extra, lane, batch, wanted, contributing);
+  test_lane(point, own, own_extra, lane + 1u, batch, wanted, contributing);
+  test_lane(point, own, own_extra, lane + 2u, batch, wanted, contributing);
+  test_lane(point, own, own_extra, lane + 3u, batch, wanted, contributing);
+}
+
+// Tests a batch of up to as many lights as there are lanes; a bit for each that contributes. Several lights a turn, with long lists none but the
+// caller's: turns are short on some drivers (light_eval.glsl, LONG_LISTS).
+uint test_batch(SurfacePoint point, LightCore own, LightExtra own_extra, uint batch, bool wanted) {
+  uint contributing = 0u, i = 0u;
+  if (LONG_LISTS && small_subgroup) {
+    test_four(point, own, own_extra, 0u, batch, wanted, contributing);
+    test_four(point, own, own_extra, 4u, batch, wanted, contributing);
+  } else {
     do {
-      test_lane(point, own, own_extra, i, batch, wanted, contributing);
-      test_lane(point, own, own_extra, i + 1u, batch, wanted, contributing);
-      test_lane(point, own, own_extra, i + 2u, batch, wanted, contributing);
-      test_lane(point, own, own_extra, i + 3u, batch, wanted, contributing);
-      if (LONG_LISTS) {
-        test_lane(point, own, own_extra, i + 4u, batch, wanted, contributing);
-        test_lane(point, own, own_extra, i + 5u, batch, wanted, contributing);
-        test_lane(point, own, own_extra, i + 6u, batch, wanted, contributing);
-        test_lane(point, own, own_extra, i + 7u, batch, wanted, contributing);
-      }
+      test_four(point, own, own_extra, i, batch, wanted, contributing);
+      if (LONG_LISTS) test_four(point, own, own_extra, i + 4u, batch, wanted, contributing);
       i += LONG_LISTS ? 8u : 4u;
     } while (i < batch);
+  }
+  return contributing;
+}
+
+// Whether batches are tested until one has lights that contribute, before the loop that shades is entered. Where that is a branch which a subgroup
+// skips it makes no difference; a processor that takes its lanes through every loop once then shades as often as lights contribute, and not as often
+// as there are batches.
+layout(constant_id = 13) const bool TEST_AHEAD = false;
+
+// Tests and shades the lights of some runs, a bit for each and not none, for the pixels that want them. Each lane fetches one light of a batch, and
+// hands it to the others when its turn comes, so that a light is fetched once for all of them. Those that contribute are remembered as bits, and shaded
+// when the batch is tested: in the order of the run, as everywhere. No lane leaves before all are done, for none may be missing in a shuffle. Loops
+// end where they have run.
+void shade_runs(SurfacePoint point, LightCursor cursor, uint runs, bool here, inout VEC3 sum) {
+  const uint lanes = min(subgroup_lanes(), 32u);
+  uint next = 0u, left = 0u;  // of the run that is walked
+  bool wanted = false;
+  do {
+    LightCore own;
+    LightExtra own_extra;
+    uint contributing;
+    do {
+      if (left == 0u) {
+        wanted = light_run(cursor, uint(findLSB(runs)), here, next, left);
+        runs &= runs - 1u;
+      }
+      const uint batch = min(left, lanes);
+      own = CURSOR_LIGHT(run_light(next + min(gl_SubgroupInvocationID, batch - 1u)));
+      if (extras_go_along) own_extra = extra_ahead(own);
+      contributing = test_batch(point, own, own_extra, batch, wanted);
+      next += batch;
+      left -= batch;
+    } while (TEST_AHEAD && !any_of_all(contributing != 0u) && (runs | left) != 0u);
     if (any_of_all(contributing != 0u)) {
       do {
         add_lane(point, own, own_extra, contributing, sum);
@@ -72,8 +99,7 @@ void shade_run(SurfacePoint point, uint first, uint count, bool wanted, inout VE
         }
       } while (any_of_all(contributing != 0u));
     }
-    begin += lanes;
-  } while (begin < count);
+  } while ((runs | left) != 0u);
 }
 
 // The pixels that lie in one cell walk it together, one cell after the other. `lit`: false for lanes that only help.
@@ -87,18 +113,13 @@ void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
     const bool here = left == cell;
     if (here) left = none;
     LightCursor cursor = cell_begin(cell, point.depth, here);
-    bool more;
-    do {
-      uint runs = light_next_runs(cursor, here, more);
-      if (runs != 0u) {
-        do {
-          uint first, count;
-          const bool wanted = light_run(cursor, uint(findLSB(runs)), here, first, count);
-          shade_run(point, first, count, wanted, sum);
-          runs &= runs - 1u;
-        } while (runs != 0u);
-      }
-    } while (more);
+    uint runs = light_first_runs(cursor, here);
+    if (runs != 0u) {
+      do {
+        shade_runs(point, cursor, runs, here, sum);
+        runs = light_next_runs(cursor, here);
+      } while (runs != 0u);
+    }
     cell = lowest_of_all(left);
   } while (cell != none);
 }

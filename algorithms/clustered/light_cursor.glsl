@@ -31,10 +31,9 @@ bool light_next(inout LightCursor cursor, out uint light, out float weight) {
 }
 
 // The whole list is one run.
-uint light_next_runs(inout LightCursor cursor, bool here, out bool more) {
-  more = false;
-  return cursor.next < cursor.end ? 1u : 0u;
-}
+uint light_first_runs(inout LightCursor cursor, bool here) { return cursor.next < cursor.end ? 1u : 0u; }
+
+uint light_next_runs(inout LightCursor cursor, bool here) { return 0u; }
 
 bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint count) {
   first = cursor.next;

@@ -72,12 +72,13 @@ bool light_next(inout LightCursor cursor, out uint light, out float weight) {
 }
 
 // A whole list is one run: bit 0 the first, bit 1 that of probe lights.
-uint light_next_runs(inout LightCursor cursor, bool here, out bool more) {
-  more = false;
+uint light_first_runs(inout LightCursor cursor, bool here) {
   uint runs = cursor.next < cursor.end ? 1u : 0u;
   if (PACKED && EFFECT_PROBES && cursor.probe_next < cursor.probe_end) runs |= 2u;
   return runs;
 }
+
+uint light_next_runs(inout LightCursor cursor, bool here) { return 0u; }
 
 bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint count) {
   const bool probes = PACKED && EFFECT_PROBES && bit == 1u;

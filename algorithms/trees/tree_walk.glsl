@@ -108,16 +108,13 @@ bool some_depth_in(float low, float high, float depth, bool here) {
 
 // A subgroup that walks together takes as many nodes at once as it has lanes, one each, and with them every leaf that holds a pixel's depth. All
 // nodes above such a leaf hold it too, so leaves tell alone; of the others those that are missed tell how far the next nodes can be left out.
-// A list is one run.
-uint light_next_runs(inout LightCursor cursor, bool here, out bool more) {
-  more = false;
-  if (!HAS_TREES) return cursor.run_count != 0u ? 1u : 0u;
+// Adds what it finds to `runs`; ends with the first that are there, or behind the tree.
+void tree_runs(inout LightCursor cursor, bool here, inout uint runs) {
   const uint lanes = min(subgroup_lanes(), 32u), lane = gl_SubgroupInvocationID;
-  uint runs = cursor.next != cursor.last ? 1u : 0u;
   do {
     const uint own = cursor.node + lane, behind = cursor.node + lanes;
     const bool exists = lane < lanes && own < cursor.end;
-    if (here) COUNT_NODES(min(cursor.end - cursor.node, lanes));
+    if (here) COUNT_NODES(min(max(cursor.end, cursor.node) - cursor.node, lanes));
     TreeNode node = TreeNode(any_depth, -any_depth, 0u, 0u);
     if (exists) node = tree_node(own);
     const bool hit = some_depth_in(node.low, node.high, cursor.depth, here);
@@ -134,7 +131,18 @@ uint light_next_runs(inout LightCursor cursor, bool here, out bool more) {
     const uint jumps = lanes_where(exists && !hit && next > behind);
     cursor.node = jumps != 0u ? subgroupShuffle(next, uint(findLSB(jumps))) : behind;
   } while (runs == 0u && cursor.node < cursor.end);
-  more = cursor.node < cursor.end;
+}
+
+// A list is one run, in every lane.
+uint light_first_runs(inout LightCursor cursor, bool here) {
+  uint runs = cursor.next != cursor.last ? 1u : 0u;
+  if (HAS_TREES) tree_runs(cursor, here, runs);
+  return runs;
+}
+
+uint light_next_runs(inout LightCursor cursor, bool here) {
+  uint runs = 0u;
+  if (HAS_TREES) tree_runs(cursor, here, runs);
   return runs;
 }
 

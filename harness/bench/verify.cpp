@@ -30,7 +30,7 @@ std::vector<uint32_t> chosen_frames(uint32_t frames, uint32_t wanted) {
 }
 
 // Different 8x8 blocks of the picture, seeded, in ascending order.
-std::vector<glm::uvec2> sampled_blocks(uint32_t width, uint32_t height, uint64_t count, uint32_t seed) {
+std::vector<glm::u16vec2> sampled_blocks(uint32_t width, uint32_t height, uint64_t count, uint32_t seed) {
   uint32_t across = (width + 7) / 8, down = (height + 7) / 8, all = across * down;
   std::vector<uint32_t> order(all);
   for (uint32_t i = 0; i < all; ++i) order[i] = i;
@@ -39,13 +39,13 @@ std::vector<glm::uvec2> sampled_blocks(uint32_t width, uint32_t height, uint64_t
   for (uint32_t i = 0; i < taken; ++i) std::swap(order[i], order[i + random.below(all - i)]);
   order.resize(taken);
   std::sort(order.begin(), order.end());
-  std::vector<glm::uvec2> blocks;
+  std::vector<glm::u16vec2> blocks;
   for (uint32_t block : order) blocks.emplace_back(block % across, block / across);
   return blocks;
 }
 
 // The pixels of the blocks as a picture of their own, 64 to a row.
-Picture gathered(const Picture& picture, const std::vector<glm::uvec2>& blocks) {
+Picture gathered(const Picture& picture, const std::vector<glm::u16vec2>& blocks) {
   Picture result(64, std::max<uint32_t>(1, static_cast<uint32_t>(blocks.size())), picture.channels);
   for (size_t b = 0; b < blocks.size(); ++b)
     for (uint32_t i = 0; i < 64; ++i) {
@@ -189,7 +189,7 @@ class SetupProof {
   std::vector<Tally> tallies_;
   std::vector<uint8_t> lit_;
   // Of the frame at hand.
-  std::vector<glm::uvec2> blocks_;
+  std::vector<glm::u16vec2> blocks_;
   Picture brute_image_, ideal_image_;
   double floor_ = 0;
   // Over all frames.
@@ -214,7 +214,7 @@ void SetupProof::prove_references(const FrameInput& input, uint32_t index) {
   brute_->count_blocks(frame_, input, blocks_);
   brute_image_ = gathered(result_picture(frame_), blocks_);
   PixelCounts counts = read_counts(frame_);
-  for (const glm::uvec2& block : blocks_)
+  for (const glm::u16vec2 block : blocks_)
     for (uint32_t i = 0; i < 64; ++i) {
       uint32_t x = block.x * 8 + i % 8, y = block.y * 8 + i / 8;
       if (x >= setup_.width || y >= setup_.height) continue;

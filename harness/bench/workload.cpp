@@ -62,6 +62,7 @@ Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const S
   effects_.compute_lists = setup.shading.list_queue == ListQueue::compute;
   if (setup.shading.light_fetch != LightFetch::automatic)
     effects_.texel_fetch = setup.shading.light_fetch == LightFetch::texel;
+  effects_.test_ahead = setup.shading.test_ahead;
   frames_ = std::make_unique<FrameSequence>(*scene_, *lights_, path_, setup.camera.frames, setup.width,
                                             setup.height, threads_, effects_.shapes());
 }

@@ -76,6 +76,10 @@ const std::vector<Row>& effects() {
       {"texel_fetch",
        "lights, trees' nodes and cells read four words at a time, through texel buffers; on software devices "
        "(shading.light_fetch: auto | storage | texel)"},
+      {"test_ahead",
+       "subgroups that walk together test batches of lights until one has a light that contributes, and "
+       "shade "
+       "then (shading.test_ahead: false | true)"},
       {"long_lists", "passes over all lights take several a turn; with more than 28,000 lights"},
   };
   return rows;

@@ -68,6 +68,8 @@ struct ShadingSpec {
   uint32_t shadow_map_size = 1024;  // px a side, [16, 8192]
   ListQueue list_queue = ListQueue::graphics;
   LightFetch light_fetch = LightFetch::automatic;
+  // Subgroups that walk together test on until a light contributes before they enter the loop that shades.
+  bool test_ahead = false;
 };
 
 struct AlgorithmSpec {

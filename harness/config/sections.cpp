@@ -264,6 +264,8 @@ std::span<const Field<ShadingSpec>> shading_fields() {
       {"light_fetch",
        [](const Node& n, S& s) { s.light_fetch = read_enum<LightFetch>(n, light_fetch_names()); },
        [](const S& s) { return write_enum(s.light_fetch, light_fetch_names()); }},
+      {"test_ahead", [](const Node& n, S& s) { s.test_ahead = n.boolean(); },
+       [](const S& s) { return json(s.test_ahead); }},
   });
   return fields;
 }

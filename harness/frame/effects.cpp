@@ -24,6 +24,7 @@ std::vector<std::string> Effects::names(const gpu::Device& device) const {
   if (shadow_maps) list.emplace_back("shadow_maps");
   if (compute_lists) list.emplace_back("compute_lists");
   if (fetches_texels(device)) list.emplace_back("texel_fetch");
+  if (test_ahead) list.emplace_back("test_ahead");
   if (long_lists) list.emplace_back("long_lists");
   return list;
 }
@@ -38,7 +39,8 @@ std::vector<gpu::Constant> Effects::constants(const gpu::Device& device) const {
           {6, boxes},
           {10, probes},
           {11, limits.one_subgroup_size && !any_subgroup_size ? limits.subgroup_size : 0},
-          {12, fetches_texels(device)}};
+          {12, fetches_texels(device)},
+          {13, test_ahead}};
 }
 
 void require_texels(const gpu::DeviceLimits& limits, const std::string& what, uint64_t bytes) {

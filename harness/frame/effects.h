@@ -37,6 +37,9 @@ struct Effects {
   bool fetches_texels(const gpu::Device& device) const {
     return fetches_texels(device.info(), device.limits());
   }
+  // Subgroups that walk together test batches of lights until one contributes, and shade then
+  // (shading.test_ahead).
+  bool test_ahead = false;
   // Passes over all lights that are fit for more than `most_turns` of them (shaders/light_eval.glsl says
   // why); costs compile time. Shading loops go by what a frame's pixels walk (ShadedAlgorithm).
   bool long_lists = true;
@@ -52,7 +55,8 @@ struct Effects {
     return 1u | (spots ? 2u : 0u) | (capsules ? 4u : 0u) | (wedges ? 8u : 0u) | (boxes ? 16u : 0u) |
            (probes ? 32u : 0u);
   }
-  // The specialization constants that shaders/light_eval.glsl, subgroup_exchange.glsl and quads.glsl ask for.
+  // The specialization constants that shaders/light_eval.glsl, shade_together.glsl, subgroup_exchange.glsl
+  // and quads.glsl ask for.
   std::vector<gpu::Constant> constants(const gpu::Device& device) const;
 };
 

@@ -49,7 +49,7 @@ void SeenBlocks::read() {
   for (uint32_t row : rows_)
     for (uint32_t column = 0; column < columns_; ++column)
       if (found[size_t{row} * columns_ + column] != 0) places_.emplace_back(column, row);
-  const size_t bytes = places_.size() * sizeof(glm::uvec2);
+  const size_t bytes = places_.size() * sizeof(glm::u16vec2);
   std::span<std::byte> memory = list_.map(bytes);
   if (bytes > 0) std::memcpy(memory.data(), places_.data(), bytes);
 }

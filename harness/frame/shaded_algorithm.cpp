@@ -130,7 +130,7 @@ uint64_t ShadedAlgorithm::upload_bytes() const {
   return sum;
 }
 
-void ShadedAlgorithm::prepare(const FrameInput& input, Spans& spans, std::span<const glm::uvec2> blocks) {
+void ShadedAlgorithm::prepare(const FrameInput& input, Spans& spans, std::span<const glm::u16vec2> blocks) {
   algorithm_->prepare(input, *this, spans);
   auto span = spans.span("upload");
   sort_blocks(input, blocks);
@@ -144,7 +144,7 @@ void ShadedAlgorithm::tiles_across(std::vector<TileRange>& tiles, uint32_t pixel
     tiles[block] = {block * 8 / tile, std::min((block * 8 + 7) / tile, count - 1)};
 }
 
-void ShadedAlgorithm::sort_blocks(const FrameInput& input, std::span<const glm::uvec2> blocks) {
+void ShadedAlgorithm::sort_blocks(const FrameInput& input, std::span<const glm::u16vec2> blocks) {
   const TileClasses classes = algorithm_->tile_classes();
   one_class_ = true;
   only_class_ = classes.most;
@@ -175,7 +175,7 @@ void ShadedAlgorithm::sort_blocks(const FrameInput& input, std::span<const glm::
   one_class_ = false;
   uint32_t begin = 0;
   for (uint32_t& end : block_ends_) begin += std::exchange(end, begin);
-  auto* sorted = reinterpret_cast<glm::uvec2*>(class_blocks_.map(blocks.size_bytes()).data());
+  auto* sorted = reinterpret_cast<glm::u16vec2*>(class_blocks_.map(blocks.size_bytes()).data());
   for (size_t i = 0; i < blocks.size(); ++i) sorted[block_ends_[class_of_block_[i]]++] = blocks[i];
 }
 
@@ -263,7 +263,7 @@ void ShadedAlgorithm::count(DeviceFrame& frame, const FrameInput& input) {
 }
 
 void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input,
-                                   std::span<const glm::uvec2> blocks) {
+                                   std::span<const glm::u16vec2> blocks) {
   frame.counters();
   std::span<std::byte> memory = sampled_blocks_.map(blocks.size_bytes());
   if (!blocks.empty()) std::memcpy(memory.data(), blocks.data(), blocks.size_bytes());

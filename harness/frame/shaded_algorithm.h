@@ -20,7 +20,7 @@ class ShadedAlgorithm final : private UploadMemory {
 
   // CPU: lists of the frame into mapped memory. Spans of the algorithm's stages. `blocks`: the 8x8 px blocks
   // that will be shaded, in their order: those of the frame that is loaded (SeenBlocks).
-  void prepare(const FrameInput& input, Spans& spans, std::span<const glm::uvec2> blocks);
+  void prepare(const FrameInput& input, Spans& spans, std::span<const glm::u16vec2> blocks);
 
   // GPU, timed: list building and shading of the frame that is loaded.
   gpu::SubmissionTimes shade(DeviceFrame& frame, const FrameInput& input, gpu::Timing timing);
@@ -29,7 +29,7 @@ class ShadedAlgorithm final : private UploadMemory {
   // The same for only the 8x8 blocks of the list, for sampled references: result and counters of other blocks
   // keep what they held. All is lit deferred and into one target, a reference for the other ways. At most
   // 65,535 blocks (workgroups along one axis on the smallest devices).
-  void count_blocks(DeviceFrame& frame, const FrameInput& input, std::span<const glm::uvec2> blocks);
+  void count_blocks(DeviceFrame& frame, const FrameInput& input, std::span<const glm::u16vec2> blocks);
 
   // A hash of every byte that the last prepare() gave to the GPU.
   uint64_t upload_digest() const;
@@ -61,7 +61,7 @@ class ShadedAlgorithm final : private UploadMemory {
   const gpu::ComputeProgram& program(const Variant& variant);
   bool walks_far(const DeviceFrame& frame, const FrameInput& input) const;
   // Sorts the blocks by the class of the tiles that they lie in.
-  void sort_blocks(const FrameInput& input, std::span<const glm::uvec2> blocks);
+  void sort_blocks(const FrameInput& input, std::span<const glm::u16vec2> blocks);
   struct TileRange {
     uint32_t first, last;
   };

@@ -1,5 +1,5 @@
 // How programs read lights and trees: from storage buffers and from texel buffers (shading.light_fetch),
-// handed around small subgroups and not. The same bits.
+// handed around small subgroups and not, tested ahead of shading and not (shading.test_ahead). The same bits.
 #include <gtest/gtest.h>
 
 #include "harness/accuracy/image_metrics.h"
@@ -55,6 +55,23 @@ TEST_F(LightFetch, ProgramsForSubgroupsOfAnySizeGiveTheSameBits) {
   const Seen one = known.expect_trials(camera, lights, every_algorithm(), 12);
   const Seen other = unknown.expect_trials(camera, lights, every_algorithm(), 12);
   expect_same(one, other);
+}
+
+TEST_F(LightFetch, TestingAheadGivesTheSameBits) {
+  const Camera camera = camera_at({-3, 5, 22}, {-2, 1, 0}, width, height);
+  std::vector<Light> lights = mixed_shapes(900, {-25, 0, -20}, {25, 7, 18}, 0.5, 9, 3);
+  for (size_t i = 0; i < lights.size(); i += 7) lights[i].probe = true;
+  for (bool large : {false, true}) {  // lists and subgroups
+    SCOPED_TRACE(large);
+    Effects effects = fetched(true, large);
+    effects.any_subgroup_size = large;
+    Exactness batches(yard(), width, height, effects);
+    effects.test_ahead = true;
+    Exactness ahead(yard(), width, height, effects);
+    const Seen one = batches.expect_trials(camera, lights, every_algorithm(), 12);
+    const Seen other = ahead.expect_trials(camera, lights, every_algorithm(), 12);
+    expect_same(one, other);
+  }
 }
 
 // A buffer of a single light is as small as buffers get.

@@ -9,6 +9,7 @@ void expect_random_cases(uint32_t width, uint32_t height, uint32_t cases, uint32
   Effects effects = all_shapes();
   effects.texel_fetch = width % 2 == 0;
   effects.any_subgroup_size = height % 2 != 0;
+  effects.test_ahead = width % 3 == 1;
   Exactness check(yard(), width, height, effects);
   for_random_frames(width, height, cases, seed,
                     [&](Random& random, const Camera& camera, const std::vector<Light>& lights) {

@@ -69,6 +69,7 @@ inline const std::vector<BadDocument>& bad_documents() {
       {R"({"shading": {"shadow_map_size": 8}})", "$.shading.shadow_map_size", "from 16 to 8192"},
       {R"({"shading": {"list_queue": "compte"}})", "$.shading.list_queue", "did you mean 'compute'"},
       {R"({"shading": {"light_fetch": "texels"}})", "$.shading.light_fetch", "did you mean 'texel'"},
+      {R"({"shading": {"test_ahead": 1}})", "$.shading.test_ahead", "true or false"},
       {R"({"shading": {"list_queues": "compute"}})", "$.shading.list_queues", "did you mean 'list_queue'"},
       {R"({"lights": {"intensity": 0}})", "$.lights.intensity", "found 0"},
       {R"({"lights": {"seed": 4294967296}})", "$.lights.seed", "found 4294967296"},

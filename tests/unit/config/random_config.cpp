@@ -164,6 +164,7 @@ json random_config() {
     if (now()) config["shading"]["shadow_map_size"] = integer(16, 8192);
     if (now()) config["shading"]["list_queue"] = one_of({"graphics", "compute"});
     if (now()) config["shading"]["light_fetch"] = one_of({"auto", "storage", "texel"});
+    if (now()) config["shading"]["test_ahead"] = now();
   }
   if (now()) {
     json sweep = json::object();

@@ -74,7 +74,7 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
     "measure": {"warmup": 0, "repeats": 5, "threads": 2, "seed": 9, "mode": "whole"},
     "outputs": {"heatmaps": [2, 0], "images": [1], "trace": false},
     "effects": {"spots": "off", "capsules": "off", "wedges": "auto", "boxes": "off", "probes": "off", "specular": "auto", "alpha_mask": "off", "forward": "off"},
-    "shading": {"targets": "split", "shadow_maps": 4, "shadow_map_size": 512, "list_queue": "compute", "light_fetch": "storage"}})");
+    "shading": {"targets": "split", "shadow_maps": 4, "shadow_map_size": 512, "list_queue": "compute", "light_fetch": "storage", "test_ahead": true}})");
   EXPECT_EQ(config.name, "every");
   const ml::Setup& setup = config.setups.at(0);
   EXPECT_EQ(setup.scene.gltf, "/levels/a.glb");
@@ -133,6 +133,7 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
   EXPECT_EQ(setup.shading.shadow_map_size, 512u);
   EXPECT_EQ(setup.shading.list_queue, ListQueue::compute);
   EXPECT_EQ(setup.shading.light_fetch, LightFetch::storage);
+  EXPECT_TRUE(setup.shading.test_ahead);
 }
 
 TEST(ConfigReading, SharesOfTheShapesAddUpToOneAtMost) {

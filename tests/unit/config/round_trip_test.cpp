@@ -45,6 +45,7 @@ void expect_same(const Config& a, const Config& b) {
     RC_ASSERT(x.shading.shadow_map_size == y.shading.shadow_map_size);
     RC_ASSERT(x.shading.list_queue == y.shading.list_queue);
     RC_ASSERT(x.shading.light_fetch == y.shading.light_fetch);
+    RC_ASSERT(x.shading.test_ahead == y.shading.test_ahead);
     RC_ASSERT(x.effects.spots == y.effects.spots);
     RC_ASSERT(x.effects.capsules == y.effects.capsules);
     RC_ASSERT(x.effects.wedges == y.effects.wedges);
