@@ -41,8 +41,9 @@ void Forest::build(const FroxelLists& lists, const ForestSettings& settings, Thr
     if (chunk_count_ == 1 && in_place) {
       chunk.nodes = in_place;
     } else {
-      reserve_padded(own_nodes_[c], node_room(settings, offsets[chunk.end_cell] - offsets[chunk.first_cell],
-                                              chunk.end_cell - chunk.first_cell));
+      const size_t cells_of_chunk = chunk.end_cell - chunk.first_cell;
+      reserve_padded(own_nodes_[c],
+                     node_room(settings, offsets.subspan(chunk.first_cell, cells_of_chunk + 1)));
       chunk.nodes = own_nodes_[c].data();
     }
     simd::build_chunk(lists, settings, cell_depths_, cells_.data(), chunk);

@@ -16,7 +16,7 @@ class Forest {
  public:
   // Nodes that the lists' trees take at most.
   static uint64_t room(const FroxelLists& lists, const ForestSettings& settings) {
-    return node_room(settings, lists.entries().size(), lists.grid().cells());
+    return node_room(settings, lists.offsets());
   }
 
   // With `in_place`, of room() elements, a single thread writes the nodes there; else they are in memory of

@@ -235,7 +235,7 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
     uint32_t longest = 0;
     for (uint32_t c = cell; c < row_end; ++c) longest = std::max(longest, offsets[c + 1] - offsets[c]);
     // No depth matters where all cells are short lists.
-    const uint32_t short_list = std::max(settings.lights_per_leaf, settings.list_lights);
+    const uint32_t short_list = settings.short_list();
     if (longest > short_list || settings.list_nodes) {
       reserve_padded(chunk.reaches, row_lights);
       collect(entries.subspan(row_first), row_lights, reach_of_light, chunk.reaches.data());

@@ -1,6 +1,7 @@
 // Trees and lists of a run of neighbouring cells: the part of the build that one thread does at a time.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -24,6 +25,8 @@ struct ForestSettings {
   // Lists are trees of one node, as in the paper (section 3.4), or several one after the other where a leaf
   // cannot count them; else a list's place stands in its cell.
   bool list_nodes = false;
+  // Cells of no more lights are lists whatever their depths.
+  uint32_t short_list() const { return std::max(lights_per_leaf, list_lights); }
 };
 
 struct ForestChunk {
@@ -51,10 +54,16 @@ inline uint32_t leaf_size(uint32_t asked, uint32_t lights) {
   return (lights + 8 * ML_TREE_MAX_LEAVES - 1) / (8 * ML_TREE_MAX_LEAVES) * 8;
 }
 
-// Nodes that cells with so many list entries take at most: a tree has more lights than a leaf, and padding
-// gives it up to 3.75 nodes for a leaf's lights.
-inline uint64_t node_room(const ForestSettings& settings, uint64_t entries, uint64_t cells) {
-  return 4 * (entries / settings.lights_per_leaf + 1) + (settings.list_nodes ? cells : 0);
+// Nodes that cells take at most; `offsets`: where their lists begin, and the end. A tree of u > 1 leaves has
+// more lights than u - 1 leaves hold, and with its padding less than 4 (u - 1) nodes.
+inline uint64_t node_room(const ForestSettings& settings, std::span<const uint32_t> offsets) {
+  uint32_t in_long_lists = 0;
+  for (size_t cell = 0; cell + 1 < offsets.size(); ++cell) {
+    const uint32_t lights = offsets[cell + 1] - offsets[cell];
+    in_long_lists += lights > settings.short_list() ? lights : 0;
+  }
+  return uint64_t{4} * (in_long_lists / settings.lights_per_leaf + 1) +
+         (settings.list_nodes ? offsets.size() : 0);
 }
 
 // Place of a node in a full binary tree of 2^height leaves stored depth first: node `index` of level `level`

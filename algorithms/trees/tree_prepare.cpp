@@ -19,10 +19,13 @@ TreeNode* map_nodes(UploadMemory& memory, uint64_t nodes) {
   return reinterpret_cast<TreeNode*>(memory.map(nodes_slot, nodes * sizeof(TreeNode)).data());
 }
 
-// Where the nodes can be built so that none has to be copied, or null. How many they will be is not known
-// yet, so there must be room for the most.
-TreeNode* nodes_in_place(UploadMemory& memory, uint64_t room) {
+// Where a single thread can build the nodes so that none has to be copied, or null. How many they will be is
+// not known yet, so there must be room for the most.
+TreeNode* nodes_in_place(UploadMemory& memory, const FroxelLists& lists, const ForestSettings& trees,
+                         const Threads& threads) {
+  if (threads.count() > 1) return nullptr;
   map_nodes(memory, 0);
+  const uint64_t room = Forest::room(lists, trees);
   if (!memory.cached(nodes_slot) || room * sizeof(TreeNode) > memory.limit()) return nullptr;
   return map_nodes(memory, room);
 }
@@ -38,7 +41,7 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
   lists_.build(frame, froxels_, memory, indices_slot, spans);
   {
     auto span = spans.span("build");
-    forest_.build(lists_, trees_, *frame.threads, nodes_in_place(memory, Forest::room(lists_, trees_)));
+    forest_.build(lists_, trees_, *frame.threads, nodes_in_place(memory, lists_, trees_, *frame.threads));
     classify_tiles();
   }
   const uint64_t node_bytes = forest_.nodes() * sizeof(TreeNode);

@@ -142,7 +142,7 @@ uint light_first_runs(inout LightCursor cursor, bool here) {
 
 uint light_next_runs(inout LightCursor cursor, bool here) {
   uint runs = 0u;
-  if (HAS_TREES) tree_runs(cursor, here, runs);
+  if (HAS_TREES && cursor.node < cursor.end) tree_runs(cursor, here, runs);
   return runs;
 }
 

@@ -13,9 +13,12 @@ namespace {
 
 // Lights and nodes up to which the shading loop for short walks, the faster one, stays below the turns that
 // some drivers allow (shaders/light_eval.glsl). A pixel that walks alone takes up to two turns for each. A
-// subgroup walks the cells of all its pixels and takes about three turns for two lights: its limit is for all
-// together.
-constexpr uint64_t longest_short_walk = 28000, longest_short_walk_together = 40000;
+// subgroup walks the cells of all its pixels: its limit is for all together. It takes a turn for each light
+// that contributes, and for a batch of as many lights as it has lanes one more and one for every four tests;
+// testing ahead another. That is 1.5 turns a light, ahead 1.75, with the smallest subgroups of such a driver,
+// of 4 lanes.
+constexpr uint64_t longest_short_walk = 28000, longest_short_walk_together = 40000,
+                   longest_short_walk_ahead = 36000;
 // Workgroups along one axis on the smallest devices.
 constexpr uint32_t most_groups = 65535;
 
@@ -103,7 +106,8 @@ bool ShadedAlgorithm::walks_far(const DeviceFrame& frame, const FrameInput& inpu
     longest = input.lights.count();
   }
   if (!together_) return longest > longest_short_walk;
-  return longest > longest_short_walk_together / std::clamp(device_.limits().subgroup_size, 1u, 16u);
+  const uint64_t most = effects_.test_ahead ? longest_short_walk_ahead : longest_short_walk_together;
+  return longest > most / std::clamp(device_.limits().subgroup_size, 1u, 16u);
 }
 
 std::span<std::byte> ShadedAlgorithm::map(uint32_t slot, size_t bytes) {

@@ -26,8 +26,9 @@ void expect_same(const Seen& one, const Seen& other) {
     EXPECT_EQ(one.counts[i].tested, other.counts[i].tested);
     EXPECT_EQ(one.counts[i].nodes, other.counts[i].nodes);
     EXPECT_EQ(one.counts[i].hash, other.counts[i].hash);
+    EXPECT_EQ(compare_images(one.pictures[i], other.pictures[i]).differing_bits, 0u);
   }
-  EXPECT_EQ(compare_images(one.image, other.image).differing_bits, 0u);
+  EXPECT_EQ(compare_images(one.image, other.image).differing_bits, 0u) << "brute force";
 }
 
 TEST_F(LightFetch, BothWaysGiveTheSameBitsWithEveryAlgorithm) {
@@ -61,10 +62,14 @@ TEST_F(LightFetch, TestingAheadGivesTheSameBits) {
   const Camera camera = camera_at({-3, 5, 22}, {-2, 1, 0}, width, height);
   std::vector<Light> lights = mixed_shapes(900, {-25, 0, -20}, {25, 7, 18}, 0.5, 9, 3);
   for (size_t i = 0; i < lights.size(); i += 7) lights[i].probe = true;
-  for (bool large : {false, true}) {  // lists and subgroups
-    SCOPED_TRACE(large);
-    Effects effects = fetched(true, large);
-    effects.any_subgroup_size = large;
+  struct Programs {
+    bool long_lists, any_subgroup_size;
+  };
+  for (Programs programs : {Programs{false, false}, Programs{true, false}, Programs{true, true}}) {
+    SCOPED_TRACE(testing::Message() << "long lists " << programs.long_lists << ", subgroups of any size "
+                                    << programs.any_subgroup_size);
+    Effects effects = fetched(true, programs.long_lists);
+    effects.any_subgroup_size = programs.any_subgroup_size;
     Exactness batches(yard(), width, height, effects);
     effects.test_ahead = true;
     Exactness ahead(yard(), width, height, effects);

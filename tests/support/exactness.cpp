@@ -26,6 +26,11 @@ class Exactness::Replaceable final : public Algorithm {
   ShadeShaders shade_shaders() const override { return (*inner_)->shade_shaders(); }
   std::vector<uint32_t> shade_constants() const override { return (*inner_)->shade_constants(); }
   bool walks_together() const override { return (*inner_)->walks_together(); }
+  uint64_t longest_walk() const override { return (*inner_)->longest_walk(); }
+  TileClasses tile_classes() const override { return (*inner_)->tile_classes(); }
+  std::vector<uint32_t> class_constants(uint32_t tile_class) const override {
+    return (*inner_)->class_constants(tile_class);
+  }
   void create_gpu(gpu::Device& owner, const std::vector<gpu::Constant>& shared) override {
     (*inner_)->create_gpu(owner, shared);
   }
@@ -259,6 +264,7 @@ void Exactness::expect_trial(const Trial& trial, Seen& seen, double floor) {
   EXPECT_TRUE(counts.listed == second.listed && counts.tested == second.tested && counts.hash == second.hash)
       << "counters differ the second time";
   EXPECT_EQ(compare_images(result_picture(frame_), image).differing_bits, 0u) << "the second time";
+  seen.pictures.push_back(std::move(image));
   seen.counts.push_back(std::move(counts));
   seen.prepared.push_back(frame.prepare);
 }

@@ -46,8 +46,9 @@ std::vector<GridSettings> usual_settings();
 struct Seen {
   ContributingLights truth;
   std::vector<uint8_t> lit;
-  Picture image;                    // brute force
-  std::vector<PixelCounts> counts;  // one for each trial
+  Picture image;                  // brute force
+  std::vector<Picture> pictures;  // one for each trial
+  std::vector<PixelCounts> counts;
   std::vector<PrepareCounters> prepared;
   uint64_t contributing() const;  // over all pixels
   uint64_t lit_pixels() const;

@@ -113,33 +113,31 @@ TEST(Forest, FastPathGivesTheReferencesBits) {
   }
 }
 
-// Trees of one leaf more than a power of two take the most room for their lights.
+// Builds once more, in place, and expects the same nodes and nothing behind the room for them.
+void expect_same_in_place(const Trees& trees, const ForestSettings& settings, Threads& threads) {
+  const TreeNode untouched{1, 2, 3, 4};
+  const size_t room = Forest::room(trees.lists, settings);
+  std::vector<TreeNode> nodes(room + 100, untouched);
+  Forest in_place;
+  in_place.build(trees.lists, settings, threads, nodes.data());
+  ASSERT_LE(in_place.nodes(), room);
+  in_place.copy_nodes(nodes.data(), threads);
+  const auto bytes = [](const TreeNode& node) { return std::bit_cast<std::array<std::byte, 16>>(node); };
+  const auto end = nodes.begin() + static_cast<ptrdiff_t>(in_place.nodes());
+  EXPECT_TRUE(std::ranges::equal(std::span(nodes.begin(), end), trees.nodes, {}, bytes, bytes));
+  for (size_t i = room; i < nodes.size(); ++i) ASSERT_EQ(bytes(nodes[i]), bytes(untouched)) << "node " << i;
+}
+
 TEST(Forest, BuiltInPlaceTheyAreTheSameAndKeepToTheirRoom) {
   for (uint32_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
     Random random(5000 + seed);
     Camera camera = random_camera(random);
-    const bool one_cell = seed % 2 != 0;
-    ForestSettings settings = random_forest(random);
-    const uint32_t full = settings.lights_per_leaf << random.below(6);
-    const auto lights = one_cell ? random_small_lights(random, full + random.below(2), camera)
-                                 : random_lights(random, random.below(800), camera);
-    const uint32_t side = one_cell ? 16 : 1 + random.below(300);
-    BinningFrame fixture(lights, camera, side, side);
-    FroxelSettings froxels = random_settings(random);
-    if (one_cell) froxels.tile = 16, froxels.slices = 1;
-    const Trees trees(fixture.frame, froxels, settings);
-    const TreeNode untouched{1, 2, 3, 4};
-    const size_t room = Forest::room(trees.lists, settings);
-    std::vector<TreeNode> nodes(room + 1000, untouched);
-    Forest in_place;
-    in_place.build(trees.lists, settings, *fixture.frame.threads, nodes.data());
-    ASSERT_LE(in_place.nodes(), room) << "seed " << seed;
-    in_place.copy_nodes(nodes.data(), *fixture.frame.threads);
-    const auto bytes = [](const TreeNode& node) { return std::bit_cast<std::array<std::byte, 16>>(node); };
-    const auto begin = nodes.begin(), end = begin + static_cast<ptrdiff_t>(in_place.nodes());
-    EXPECT_TRUE(std::ranges::equal(std::span(begin, end), trees.nodes, {}, bytes, bytes)) << "seed " << seed;
-    for (size_t i = room; i < nodes.size(); ++i)
-      ASSERT_EQ(bytes(nodes[i]), bytes(untouched)) << "seed " << seed << ", node " << i;
+    BinningFrame fixture(random_lights(random, random.below(800), camera), camera, 1 + random.below(300),
+                         1 + random.below(300));
+    const ForestSettings settings = random_forest(random);
+    const Trees trees(fixture.frame, random_settings(random), settings);
+    expect_same_in_place(trees, settings, *fixture.frame.threads);
   }
 }
 
@@ -156,25 +154,59 @@ TEST(Forest, DepthFirstPlacesAreThoseOfAWalk) {
   }
 }
 
-TEST(Forest, OneTileHoldsAsManyLightsAsAFrameHas) {
+Camera square_camera() {
   Camera camera;
   camera.projection = Projection::perspective(1, 1, 0.1f, 100);
+  return camera;
+}
+
+// All of them in one tile.
+std::vector<Light> lights_in_a_row(uint32_t count) {
+  std::vector<Light> lights(count);
+  for (uint32_t i = 0; i < count; ++i)
+    lights[i].position = {0.1, 0.1, -3 - 20.0 * i / count}, lights[i].radius = 0.4f;
+  return lights;
+}
+
+FroxelSettings one_tile() {
+  FroxelSettings froxels;
+  froxels.tile = 64;
+  froxels.slices = 1;
+  return froxels;
+}
+
+// Trees of a light more than a power of two of full leaves take the most room for their lights; with more
+// than 2048 leaves these get larger.
+TEST(Forest, TheLargestTreesForTheirLightsKeepToTheirRoom) {
+  for (uint32_t per_leaf : {1u, 3u, 8u, 64u})
+    for (uint32_t full_leaves : {1u, 2u, 4u, 32u, 512u, 2048u, 4096u}) {
+      const uint32_t count = per_leaf * full_leaves + 1;
+      SCOPED_TRACE(count);
+      BinningFrame fixture(lights_in_a_row(count), square_camera(), 64, 64);
+      ForestSettings settings;
+      settings.threshold = infinity;
+      settings.lights_per_leaf = per_leaf;
+      settings.trim_padding = false;
+      const Trees trees(fixture.frame, one_tile(), settings);
+      ASSERT_EQ(trees.lists.entries().size(), count);
+      if (full_leaves < ML_TREE_MAX_LEAVES) {
+        ASSERT_EQ(trees.nodes.size(), 4 * full_leaves - 1);
+      }
+      expect_same_in_place(trees, settings, *fixture.frame.threads);
+    }
+}
+
+TEST(Forest, OneTileHoldsAsManyLightsAsAFrameHas) {
   for (uint32_t count : {1u, 8u, 9u, 65535u, 65536u, 65537u, 262144u}) {
-    std::vector<Light> lights(count);
-    for (uint32_t i = 0; i < count; ++i)
-      lights[i].position = {0.1, 0.1, -3 - 20.0 * i / count}, lights[i].radius = 0.4f;
-    BinningFrame fixture(lights, camera, 64, 64);
+    BinningFrame fixture(lights_in_a_row(count), square_camera(), 64, 64);
     for (float threshold : {0.0f, 1.0f, infinity})
       for (uint32_t per_leaf : {1u, 8u, 64u})
         for (bool list_nodes : {false, true}) {
-          FroxelSettings froxels;
-          froxels.tile = 64;
-          froxels.slices = 1;
           ForestSettings settings;
           settings.threshold = threshold;
           settings.lights_per_leaf = per_leaf;
           settings.list_nodes = list_nodes;
-          Trees trees(fixture.frame, froxels, settings);
+          Trees trees(fixture.frame, one_tile(), settings);
           uint64_t below = 0;
           for (const TreeNode& node : trees.nodes)
             if (tree_is_leaf(node)) below += tree_leaf_lights(node);
