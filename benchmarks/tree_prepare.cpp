@@ -43,9 +43,10 @@ void plain_scalar(benchmark::State& state, MakeInput make, bool tiles) {
   report(state, input->frame.lights.count(), lists.entries().size());
 }
 
-void fast(benchmark::State& state, MakeInput make, unsigned threads, bool tiles) {
+void prepare_frames(benchmark::State& state, MakeInput make, unsigned threads, const FroxelSettings& froxels,
+                    const ForestSettings& trees) {
   auto input = make(static_cast<uint32_t>(state.range(0)), threads);
-  TreePrepare prepare("hybrid", froxels(tiles), trees(tiles));
+  TreePrepare prepare("hybrid", froxels, trees);
   PlainMemory memory;
   Spans spans;
   prepare.prepare(input->frame, memory, spans);
@@ -55,11 +56,23 @@ void fast(benchmark::State& state, MakeInput make, unsigned threads, bool tiles)
   report_stages(state, spans);
 }
 
+void fast(benchmark::State& state, MakeInput make, unsigned threads, bool tiles) {
+  prepare_frames(state, make, threads, froxels(tiles), trees(tiles));
+}
+
+// The hybrid where no cell becomes a tree: what is left of its growth.
+void lists(benchmark::State& state, MakeInput make) {
+  ForestSettings settings = trees(false);
+  settings.threshold = 0;
+  prepare_frames(state, make, 1, froxels(false), settings);
+}
+
 #define SIZES RangeMultiplier(2)->Range(8192, 262144)->Unit(benchmark::kMillisecond)
 
 BENCHMARK_CAPTURE(plain_scalar, hybrid_view, view_input, false)->SIZES;
 BENCHMARK_CAPTURE(fast, hybrid_view, view_input, 1u, false)->SIZES;
 BENCHMARK_CAPTURE(fast, hybrid_view_two_threads, view_input, 2u, false)->SIZES->UseRealTime();
+BENCHMARK_CAPTURE(lists, hybrid_view, view_input)->SIZES;
 BENCHMARK_CAPTURE(plain_scalar, hybrid_canyon, canyon_input, false)->SIZES;
 BENCHMARK_CAPTURE(fast, hybrid_canyon, canyon_input, 1u, false)->SIZES;
 BENCHMARK_CAPTURE(fast, hybrid_canyon_two_threads, canyon_input, 2u, false)->SIZES->UseRealTime();
