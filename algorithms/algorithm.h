@@ -79,8 +79,7 @@ class UploadMemory {
   virtual ~UploadMemory() = default;
   // At least `bytes` writable bytes, 64-byte aligned; contents undefined. Valid until the next prepare().
   // Where the slot is cached(), mapping it again with fewer bytes keeps place and contents. Grows rarely and
-  // never shrinks. Throws SystemError, naming algorithm, slot and limit, when the device
-  // cannot hold it.
+  // never shrinks. Throws SystemError, naming algorithm, slot and limit, when the device cannot hold it.
   virtual std::span<std::byte> map(uint32_t slot, size_t bytes) = 0;
   // The most bytes that one slot can hold.
   virtual size_t limit() const = 0;

@@ -58,8 +58,7 @@ HWY_INLINE DepthReach leaf_reach(const DepthReach* reaches, uint32_t count, Dept
                                  StepSum& sum) {
   DepthReach all = nothing;
   for (uint32_t i = 0; i < count; ++i) {
-    all.minus_low = std::max(all.minus_low, reaches[i].minus_low);
-    all.high = std::max(all.high, reaches[i].high);
+    all = either(all, reaches[i]);
     if (!summed) continue;
     const float inside =
         std::min(reaches[i].high, clip.high) + std::min(reaches[i].minus_low, clip.minus_low);

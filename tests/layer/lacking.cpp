@@ -2,11 +2,12 @@
 // device says of itself, so it is of use where no device is made.
 //
 // ML_LACKS=version | scalarBlockLayout | synchronization2 | dynamicRendering | shuffle | stage
-#include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
 #include <cstdlib>
 #include <string>
+
+#include "tests/layer/loader.h"
 
 namespace {
 
@@ -33,13 +34,8 @@ bool lacks(const char* what) {
 
 VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
                                                const VkAllocationCallbacks* allocator, VkInstance* instance) {
-  const auto* at = static_cast<const VkBaseInStructure*>(info->pNext);
-  const auto is_link = [](const VkBaseInStructure* structure) {
-    return structure->sType == VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO &&
-           reinterpret_cast<const VkLayerInstanceCreateInfo*>(structure)->function == VK_LAYER_LINK_INFO;
-  };
-  while (!is_link(at)) at = at->pNext;
-  auto* link = reinterpret_cast<VkLayerInstanceCreateInfo*>(const_cast<VkBaseInStructure*>(at));
+  auto* link =
+      loader::link_of<VkLayerInstanceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
   calls = {};
   calls.get = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
@@ -101,9 +97,5 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_function(VkInstance, const
 
 extern "C" VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL
 vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* negotiation) {
-  negotiation->loaderLayerInterfaceVersion = 2;
-  negotiation->pfnGetInstanceProcAddr = get_instance_function;
-  negotiation->pfnGetDeviceProcAddr = nullptr;
-  negotiation->pfnGetPhysicalDeviceProcAddr = nullptr;
-  return VK_SUCCESS;
+  return loader::negotiate(negotiation, get_instance_function, nullptr);
 }

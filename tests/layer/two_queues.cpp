@@ -6,7 +6,6 @@
 //
 // ML_TWO_QUEUES=KIND:BITS   KIND: compute, a family that does compute and no graphics, with BITS valid bits
 // of timestamps; or main, a second queue of the main family.
-#include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/layer/loader.h"
 #include "tests/layer/owners.h"
 
 namespace {
@@ -81,19 +81,10 @@ Wish wish() {
   return result;
 }
 
-template <typename Info>
-Info* link_of(const void* chain, VkStructureType type) {
-  for (auto* at = static_cast<const VkBaseInStructure*>(chain); at; at = at->pNext)
-    if (at->sType == type) {
-      auto* info = reinterpret_cast<Info*>(const_cast<VkBaseInStructure*>(at));
-      if (info->function == VK_LAYER_LINK_INFO) return info;
-    }
-  return nullptr;
-}
-
 VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
                                                const VkAllocationCallbacks* allocator, VkInstance* instance) {
-  auto* link = link_of<VkLayerInstanceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
+  auto* link =
+      loader::link_of<VkLayerInstanceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
   PFN_vkGetInstanceProcAddr get = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
   const auto create = reinterpret_cast<PFN_vkCreateInstance>(get(VK_NULL_HANDLE, "vkCreateInstance"));
@@ -163,7 +154,8 @@ VKAPI_ATTR void VKAPI_CALL queue_families2(VkPhysicalDevice physical, uint32_t* 
 
 VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
                                              const VkAllocationCallbacks* allocator, VkDevice* device) {
-  auto* link = link_of<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+  auto* link =
+      loader::link_of<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
   PFN_vkGetInstanceProcAddr get_instance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   PFN_vkGetDeviceProcAddr get = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
@@ -366,9 +358,5 @@ PFN_vkVoidFunction own(const char* name) {
 
 extern "C" VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL
 vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* negotiation) {
-  negotiation->loaderLayerInterfaceVersion = 2;
-  negotiation->pfnGetInstanceProcAddr = get_instance_function;
-  negotiation->pfnGetDeviceProcAddr = get_device_function;
-  negotiation->pfnGetPhysicalDeviceProcAddr = nullptr;
-  return VK_SUCCESS;
+  return loader::negotiate(negotiation, get_instance_function, get_device_function);
 }
