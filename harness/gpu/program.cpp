@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "harness/gpu/specialization.h"
 #include "harness/gpu/vulkan.h"
 
 namespace ml::gpu {
@@ -59,22 +60,26 @@ class Reflection {
   spvc_resources resources_ = nullptr;
 };
 
-struct Specialization {
-  std::vector<vk::SpecializationMapEntry> entries;
-  std::vector<uint32_t> values;
-  vk::SpecializationInfo info;
-  explicit Specialization(const std::vector<Constant>& constants) {
-    for (const Constant& constant : constants) {
-      entries.emplace_back(constant.id, static_cast<uint32_t>(values.size() * 4), 4);
-      values.push_back(constant.value);
-    }
-    info = vk::SpecializationInfo(static_cast<uint32_t>(entries.size()), entries.data(), values.size() * 4,
-                                  values.data());
-  }
-};
+vk::raii::ShaderModule make_module(const Device::Impl& device, std::span<const uint32_t> spirv,
+                                   const std::vector<Constant>& constants, const std::string& program) {
+  const std::vector<uint32_t> module = specialized(spirv, constants, program);
+  return {device.device, vk::ShaderModuleCreateInfo({}, module.size() * sizeof(uint32_t), module.data())};
+}
 
-vk::raii::ShaderModule make_module(const Device::Impl& device, std::span<const uint32_t> spirv) {
-  return {device.device, vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data())};
+// Makes `Impl` by `make`, once for each key and device; a driver's refusal becomes an error with the
+// program's name.
+template <typename Impl, typename Make>
+std::shared_ptr<Impl> once(ProgramCache<Impl>& cache, const ProgramKey& key, const std::string& name,
+                           const Make& make) {
+  if (std::shared_ptr<Impl> known = cache.find(key)) return known;
+  auto made = std::make_shared<Impl>();
+  try {
+    make(*made);
+  } catch (const vk::Error& error) {
+    throw SystemError(fmt::format("the device refuses the program {}: {}", name, error.what()));
+  }
+  cache.add(key, made);
+  return made;
 }
 
 }  // namespace
@@ -122,20 +127,19 @@ void Layout::create(Device::Impl& device) {
 
 ComputeProgram::ComputeProgram(Device& owner, std::span<const uint32_t> spirv, const std::string& name,
                                const std::vector<Constant>& constants)
-    : name_(name), impl_(std::make_unique<Impl>()) {
+    : name_(name) {
   Device::Impl& device = owner.impl();
-  impl_->layout.add_module(spirv, vk::ShaderStageFlagBits::eCompute, name);
-  impl_->layout.create(device);
-  Specialization specialization(constants);
-  try {
-    vk::raii::ShaderModule module = make_module(device, spirv);
-    vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main",
-                                            &specialization.info);
-    impl_->pipeline = vk::raii::Pipeline(
-        device.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *impl_->layout.pipeline_layout));
-  } catch (const vk::Error& error) {
-    throw SystemError(fmt::format("the device refuses the program {}: {}", name, error.what()));
-  }
+  ProgramKey key;
+  key.add(spirv);
+  key.add(constants);
+  impl_ = once(device.compute_programs, key, name, [&](Impl& impl) {
+    impl.layout.add_module(spirv, vk::ShaderStageFlagBits::eCompute, name);
+    impl.layout.create(device);
+    vk::raii::ShaderModule module = make_module(device, spirv, constants, name);
+    vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
+    impl.pipeline = vk::raii::Pipeline(
+        device.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *impl.layout.pipeline_layout));
+  });
 }
 
 ComputeProgram::~ComputeProgram() = default;
@@ -145,21 +149,24 @@ ComputeProgram& ComputeProgram::operator=(ComputeProgram&&) noexcept = default;
 RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex,
                              std::span<const uint32_t> fragment, const std::string& name,
                              const RasterState& state, const std::vector<Constant>& constants)
-    : name_(name), impl_(std::make_unique<Impl>()) {
+    : name_(name) {
   Device::Impl& device = owner.impl();
-  using Stage = vk::ShaderStageFlagBits;
-  impl_->layout.add_module(vertex, Stage::eVertex, name);
-  if (!fragment.empty()) impl_->layout.add_module(fragment, Stage::eFragment, name);
-  impl_->layout.create(device);
-  Specialization specialization(constants);
-  try {
-    vk::raii::ShaderModule vertex_module = make_module(device, vertex), fragment_module = nullptr;
-    std::vector stages{
-        vk::PipelineShaderStageCreateInfo({}, Stage::eVertex, *vertex_module, "main", &specialization.info)};
+  ProgramKey key;
+  key.add(vertex);
+  key.add(fragment);
+  key.add(constants);
+  key.add(state);
+  impl_ = once(device.raster_programs, key, name, [&](Impl& impl) {
+    using Stage = vk::ShaderStageFlagBits;
+    impl.layout.add_module(vertex, Stage::eVertex, name);
+    if (!fragment.empty()) impl.layout.add_module(fragment, Stage::eFragment, name);
+    impl.layout.create(device);
+    vk::raii::ShaderModule vertex_module = make_module(device, vertex, constants, name),
+                           fragment_module = nullptr;
+    std::vector stages{vk::PipelineShaderStageCreateInfo({}, Stage::eVertex, *vertex_module, "main")};
     if (!fragment.empty()) {
-      fragment_module = make_module(device, fragment);
-      stages.emplace_back(vk::PipelineShaderStageCreateFlags{}, Stage::eFragment, *fragment_module, "main",
-                          &specialization.info);
+      fragment_module = make_module(device, fragment, constants, name);
+      stages.emplace_back(vk::PipelineShaderStageCreateFlags{}, Stage::eFragment, *fragment_module, "main");
     }
     vk::VertexInputBindingDescription vertex_binding(0, state.vertex_stride, vk::VertexInputRate::eVertex);
     std::vector<vk::VertexInputAttributeDescription> attributes;
@@ -191,12 +198,10 @@ RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex,
     for (Format format : state.colors) colors.push_back(vulkan_format(format));
     vk::PipelineRenderingCreateInfo rendering(0, colors, vulkan_format(state.depth));
     vk::GraphicsPipelineCreateInfo info({}, stages, &input, &assembly, nullptr, &viewport, &raster, &samples,
-                                        &depth, &blend, &dynamic_state, *impl_->layout.pipeline_layout);
+                                        &depth, &blend, &dynamic_state, *impl.layout.pipeline_layout);
     info.pNext = &rendering;
-    impl_->pipeline = vk::raii::Pipeline(device.device, nullptr, info);
-  } catch (const vk::Error& error) {
-    throw SystemError(fmt::format("the device refuses the program {}: {}", name, error.what()));
-  }
+    impl.pipeline = vk::raii::Pipeline(device.device, nullptr, info);
+  });
 }
 
 RasterProgram::~RasterProgram() = default;

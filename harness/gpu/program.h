@@ -1,6 +1,8 @@
-// Compute and raster programs. Their descriptor layouts come from reflection of the SPIR-V, so a pass names
-// what it binds. A texel buffer (usamplerBuffer) with the name of a buffer and "Quads" behind it shows that
-// buffer's words, four a texel.
+// Compute and raster programs, compiled for the values of their specialization constants. A device keeps what
+// it compiled: the same modules with the same constants and state are compiled once, so a sweep's points
+// share their programs. Their descriptor layouts come from reflection of the SPIR-V, so a pass names what it
+// binds. A texel buffer (usamplerBuffer) with the name of a buffer and "Quads" behind it shows that buffer's
+// words, four a texel.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +37,7 @@ class ComputeProgram {
 
  private:
   std::string name_;
-  std::unique_ptr<Impl> impl_;
+  std::shared_ptr<Impl> impl_;  // shared by equal programs; nothing in it changes once it is made
 };
 
 struct VertexAttribute {
@@ -69,7 +71,7 @@ class RasterProgram {
 
  private:
   std::string name_;
-  std::unique_ptr<Impl> impl_;
+  std::shared_ptr<Impl> impl_;  // shared by equal programs; nothing in it changes once it is made
 };
 
 }  // namespace ml::gpu

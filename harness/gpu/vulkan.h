@@ -13,6 +13,7 @@
 #include "harness/gpu/commands.h"
 #include "harness/gpu/device.h"
 #include "harness/gpu/program.h"
+#include "harness/gpu/program_cache.h"
 #include "harness/gpu/resources.h"
 
 namespace ml::gpu {
@@ -45,6 +46,8 @@ struct Device::Impl {
   DeviceInfo info;
   DeviceLimits limits;
   bool validation = false;
+  ProgramCache<ComputeProgram::Impl> compute_programs;
+  ProgramCache<RasterProgram::Impl> raster_programs;
 };
 
 // A texel of four words.
