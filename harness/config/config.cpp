@@ -57,7 +57,18 @@ json override_value(const std::string& text, const std::string& key) {
   }
 }
 
-void apply_override(const std::string& text, Draft& draft, Sweeps& sweeps) {
+// Which of the two keys that say which lights there are came from an override.
+struct LightOverrides {
+  bool placement = false, count = false;
+
+  void see(const std::string& path, const json& value) {
+    const bool whole = path == "lights" && value.is_object();
+    placement = placement || path == "lights.placement" || (whole && value.contains("placement"));
+    count = count || path == "lights.count" || (whole && value.contains("count"));
+  }
+};
+
+void apply_override(const std::string& text, Draft& draft, Sweeps& sweeps, LightOverrides& lights) {
   static const Source source{"--set", {}};
   size_t equals = text.find('=');
   if (equals == text.npos || equals == 0) throw UsageError("--set: '" + text + "': expected KEY=VALUE");
@@ -76,6 +87,7 @@ void apply_override(const std::string& text, Draft& draft, Sweeps& sweeps) {
     sweeps.forget(path, node);
   }
   key.read(node, draft);
+  lights.see(path, value);
 }
 
 // What no single key can be blamed for.
@@ -132,11 +144,18 @@ Config build_config(const json& document, const std::string& source_name,
   Draft draft;
   draft.name = name_from(source_name);
   draft.setup.scene.procedural = "canyon";
+  draft.setup.lights.auto_count = true;
   static const json all = "all";
   draft.setup.algorithms = read_algorithms(Node(all, source, "$.algorithms"));
   Sweeps sweeps;
   read_document(Node(document, source), draft, sweeps);
-  for (const std::string& text : overrides) apply_override(text, draft, sweeps);
+  LightOverrides lights;
+  for (const std::string& text : overrides) apply_override(text, draft, sweeps, lights);
+  // A file's count was meant for the placement that the file names, not for the one that takes its place.
+  if (lights.placement && !lights.count && draft.setup.lights.placement == Placement::gltf) {
+    draft.setup.lights.auto_count = true;
+    draft.setup.lights.count = LightSpec().count;
+  }
   if (draft.setup.algorithms.empty())
     throw UsageError(source_name + ": $.algorithms: there are no algorithms");
 
@@ -153,6 +172,11 @@ Config build_config(const json& document, const std::string& source_name,
   for (const Key& key : config_keys()) {
     if (key.path.find('.') == key.path.npos) config.resolved[key.path] = key.write(draft);
   }
+  // Where only some points of a sweep take a file's lights, the draft's own placement does not show it.
+  if (draft.setup.lights.auto_count &&
+      std::any_of(config.setups.begin(), config.setups.end(),
+                  [](const Setup& setup) { return setup.lights.placement == Placement::gltf; }))
+    config.resolved["lights"]["count"] = "auto";
   sweeps.write(draft, config.resolved);
   return config;
 }

@@ -17,6 +17,7 @@ constexpr double farthest = 1e9;  // m, any coordinate
 constexpr uint32_t most_seed = 0xffffffffu;
 constexpr uint32_t most_frames = 100000;
 constexpr size_t most_keyframes = 1000;
+constexpr const char* auto_word = "auto";
 
 glm::dvec3 read_vector(const Node& node) {
   node.list(3, 3);
@@ -33,6 +34,17 @@ float read_length(const Node& node) {
   double metres = node.real(0, 1e6);
   if (metres != 0 && metres < 1e-6) node.expected("0 or a number from 1e-06 to 1000000");
   return static_cast<float>(metres);
+}
+
+void read_light_count(const Node& node, LightSpec& lights) {
+  lights.auto_count = node.json() == auto_word;
+  if (lights.auto_count) {
+    lights.count = LightSpec().count;
+  } else if (node.json().is_string()) {
+    node.expected("an integer from 0 to 1048576 or \"auto\"");
+  } else {
+    lights.count = node.unsigned_integer(0, 1048576);
+  }
 }
 
 void read_scene_name(const Node& node, SceneSpec& scene) {
@@ -107,12 +119,12 @@ std::vector<uint32_t> read_frames(const Node& node) {
 }
 
 bool read_auto_off(const Node& node) {
-  static const std::vector<std::string> words{"auto", "off"};
+  static const std::vector<std::string> words{auto_word, "off"};
   return node.choice(words) == 0;
 }
 
 json write_auto_off(bool automatic) {
-  return automatic ? "auto" : "off";
+  return automatic ? auto_word : "off";
 }
 
 template <typename Enum>
@@ -174,8 +186,10 @@ std::span<const Field<LightSpec>> light_fields() {
   static constexpr auto fields = std::to_array<Field<L>>({
       {"placement", [](const Node& n, L& l) { l.placement = read_enum<Placement>(n, placement_names()); },
        [](const L& l) { return l.placement ? write_enum(*l.placement, placement_names()) : json(); }},
-      {"count", [](const Node& n, L& l) { l.count = n.unsigned_integer(0, 1048576); },
-       [](const L& l) { return json(l.count); }},
+      {"count", read_light_count,
+       [](const L& l) {
+         return l.auto_count && l.placement == Placement::gltf ? json(auto_word) : json(l.count);
+       }},
       {"sizing", [](const Node& n, L& l) { l.sizing = read_enum<Sizing>(n, sizing_names()); },
        [](const L& l) { return write_enum(l.sizing, sizing_names()); }},
       {"base_size", [](const Node& n, L& l) { l.base_size = read_length(n); },

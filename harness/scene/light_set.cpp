@@ -124,30 +124,50 @@ LightSet::LightSet(const LightSpec& spec, const Scene& scene) : spec_(adapted(sp
     throw UsageError(fmt::format("lights: count is {}, expected at most {}", spec_.count, kMaxLights));
   }
   if (std::string wrong = shape_shares_error(spec_); !wrong.empty()) throw UsageError("lights: " + wrong);
-  auto accept = [this](const Light& light) {
-    if (const char* reason = rejection_reason(light)) {
-      ++rejected_[reason];
-    } else {
-      lights_.push_back(light);
-    }
-  };
-
   if (spec_.placement == Placement::gltf) {
-    if (scene.lights.empty()) {
-      throw UsageError(
-          one_line(fmt::format("scene '{}': it has no lights of its own for placement 'gltf'", scene.name)));
-    }
-    size_t count = std::min<size_t>(spec_.count, scene.lights.size());
-    lights_.reserve(count);
-    for (size_t i = 0; i < count; ++i) {
-      Light light = scene.lights[i];
-      if (spec_.radius > 0) override_radius(spec_.radius, light);
-      light.intensity *= spec_.intensity;
-      accept(light);
-    }
-    return;
+    take_file_lights(scene);
+  } else {
+    place_lights(scene);
+    account_.total = spec_.count;
   }
+  account_.used = static_cast<uint32_t>(lights_.size());
+}
 
+void LightSet::accept(const Light& light) {
+  if (light.intensity == glm::vec3(0)) {
+    ++account_.dark;
+  } else if (const char* reason = rejection_reason(light)) {
+    ++account_.rejections[reason];
+  } else {
+    lights_.push_back(light);
+  }
+}
+
+void LightSet::take_file_lights(const Scene& scene) {
+  if (scene.lights.empty()) {
+    std::string why;
+    for (const auto& [reason, count] : scene.rejected_lights) why += fmt::format(", {}: {}", reason, count);
+    throw UsageError(one_line(
+        fmt::format("scene '{}': it has no lights of its own for placement 'gltf'{}", scene.name, why)));
+  }
+  const auto limit = spec_.auto_count ? kMaxLights : spec_.count;
+  const size_t count = std::min<size_t>(limit, scene.lights.size());
+  account_.of_file = true;
+  account_.rejections = scene.rejected_lights;
+  account_.left_out = static_cast<uint32_t>(scene.lights.size() - count);
+  account_.total = static_cast<uint32_t>(scene.lights.size()) + account_.rejected();
+  account_.limit = limit;
+  account_.limit_is_given = !spec_.auto_count;
+  lights_.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    Light light = scene.lights[i];
+    if (spec_.radius > 0) override_radius(spec_.radius, light);
+    light.intensity *= spec_.intensity;
+    accept(light);
+  }
+}
+
+void LightSet::place_lights(const Scene& scene) {
   const uint32_t seed_hash = hash_u32(spec_.seed);
   lights_.reserve(spec_.count);
   if (spec_.placement == Placement::stage) {

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/scene/light.h"
+#include "harness/scene/light_account.h"
 #include "harness/scene/scene.h"
 
 namespace ml {
@@ -26,6 +26,9 @@ const std::vector<std::string>& light_script_names();
 struct LightSpec {
   std::optional<Placement> placement;  // none: the scene's own (Scene::light_defaults)
   uint32_t count = 8192;               // [0, 1048576]
+  // Nobody gave a count that is meant for the file's lights: placement `gltf` takes all of them. Other
+  // placements make `count` lights all the same.
+  bool auto_count = false;
   Sizing sizing = Sizing::const_overdraw;
   // m, s0 of the radius law at 65,536 lights. 0: the scene's own (scenes.md), or for a glTF level the size
   // that gives about 3 lights per visible point by the overdraw formula of the placement.
@@ -48,10 +51,6 @@ struct LightSpec {
 // `spec` with the placement and the radius ratio of the scene where it names none.
 LightSpec completed(LightSpec spec, const LightDefaults& defaults);
 
-// How many lights were refused and why ("radius is 0", "radius is negative", "radius is not finite", ...);
-// each is counted once, by the first reason that holds.
-using Rejections = std::map<std::string, uint32_t>;
-
 // Radii beyond these (m) leave the range of single precision when the shaders square them; positions (m) have
 // a limit for the same reason.
 inline constexpr float kMinLightRadius = 1e-12f, kMaxLightRadius = 1e12f;
@@ -71,9 +70,9 @@ class LightSet {
  public:
   // Throws UsageError when the scene cannot carry the placement (`gltf` without lights, surfaces without
   // triangles, `stage` and `room` without rooms), the count is too large, the shares of the shapes are, or
-  // `stage`, which has shapes of its own, is given any. `gltf` takes the first `count` of
-  // the file's lights. On the scene `plane` every placement but `gltf` is `area`, of radius 4 and height 2
-  // where the spec names none.
+  // `stage`, which has shapes of its own, is given any. `gltf` takes the file's lights: all of them, or the
+  // first `count` where it was given. On the scene `plane` every placement but `gltf` is `area`, of radius 4
+  // and height 2 where the spec names none.
   LightSet(const LightSpec& spec, const Scene& scene);
 
   // The lights that shine in frame `frame` of a path of `frames` frames that lasts `duration` seconds, in
@@ -87,14 +86,19 @@ class LightSet {
   void at(uint32_t frame, uint32_t frames, double duration, std::vector<Light>& out,
           std::vector<uint32_t>* identity = nullptr) const;
 
-  const std::vector<Light>& base() const { return lights_; }  // accepted lights before scripting
-  const Rejections& rejected() const { return rejected_; }
+  const std::vector<Light>& base() const { return lights_; }  // used lights before scripting
+  const Rejections& rejected() const { return account_.rejections; }
+  const LightAccount& account() const { return account_; }
   float base_size() const { return size_; }  // m, the s that was used
 
  private:
+  void accept(const Light& light);
+  void take_file_lights(const Scene& scene);
+  void place_lights(const Scene& scene);
+
   LightSpec spec_;
   std::vector<Light> lights_;
-  Rejections rejected_;
+  LightAccount account_;
   float size_ = 0;
 };
 

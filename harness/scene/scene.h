@@ -14,6 +14,7 @@
 
 #include "harness/scene/camera.h"
 #include "harness/scene/light.h"
+#include "harness/scene/light_account.h"
 #include "harness/scene/light_defaults.h"
 
 namespace ml {
@@ -72,6 +73,7 @@ struct Scene {
   std::vector<Texture> textures;
   LightDefaults light_defaults;
   std::vector<Light> lights;      // the file's own (KHR_lights_punctual), for placement `gltf`
+  Rejections rejected_lights;     // further lights of the file, which cannot be given a place or a radius
   std::vector<CameraPath> paths;  // the first is `default`
   std::vector<Bounds> rooms;      // from floor to ceiling, for the placements `stage` and `room`
   Bounds bounds;                  // of the vertices

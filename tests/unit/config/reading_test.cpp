@@ -378,5 +378,32 @@ TEST(ConfigOverrides, RelativeLevelsStartFromTheWorkingDirectory) {
   EXPECT_EQ(parse(R"({"scene": {"gltf": "a.glb"}})").setups[0].scene.gltf, "/levels/a.glb");
 }
 
+// A count belongs to the placement that it was written beside: a file's lights are cut only by a count that
+// was meant for them.
+TEST(LightCount, OfAFilesLights) {
+  auto takes_all = [](const std::string& text, const std::vector<std::string>& overrides) {
+    const Config config = parse(text, overrides);
+    EXPECT_EQ(config.setups[0].lights.placement, Placement::gltf);
+    return config.setups[0].lights.auto_count;
+  };
+  const std::string volume = R"({"lights": {"placement": "volume", "count": 512}})",
+                    own = R"({"lights": {"placement": "gltf", "count": 512}})";
+  EXPECT_TRUE(takes_all(volume, {"lights.placement=gltf"}));
+  EXPECT_TRUE(takes_all(volume, {R"(lights={"placement":"gltf"})"}));
+  EXPECT_TRUE(takes_all("{}", {"lights.placement=gltf"}));
+  EXPECT_TRUE(takes_all(R"({"lights": {"placement": "gltf"}})", {}));
+  EXPECT_TRUE(takes_all(own, {"lights.count=auto"}));
+  EXPECT_TRUE(takes_all(own, {"lights.placement=gltf"}));
+  EXPECT_FALSE(takes_all(own, {}));
+  EXPECT_FALSE(takes_all(volume, {"lights.placement=gltf", "lights.count=512"}));
+  EXPECT_FALSE(takes_all(volume, {"lights.count=512", "lights.placement=gltf"}));
+  EXPECT_FALSE(takes_all(volume, {R"(lights={"placement":"gltf","count":3})"}));
+  EXPECT_FALSE(takes_all(R"({"sweep": {"lights.count": [1, 2]}})", {"lights.placement=gltf"}));
+  EXPECT_EQ(parse(volume, {"lights.placement=gltf"}).resolved["lights"]["count"], "auto");
+  EXPECT_EQ(parse(own).resolved["lights"]["count"], 512);
+  EXPECT_EQ(parse("{}").resolved["lights"]["count"], 8192);
+  EXPECT_SAYS(refusal(R"({"lights": {"count": "all"}})"), "expected an integer from 0 to 1048576 or \"auto\"");
+}
+
 }  // namespace
 }  // namespace ml

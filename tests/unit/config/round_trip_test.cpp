@@ -25,6 +25,7 @@ void expect_same(const Config& a, const Config& b) {
     RC_ASSERT(x.lights.placement.has_value());
     RC_ASSERT(x.lights.placement == y.lights.placement);
     RC_ASSERT(x.lights.count == y.lights.count);
+    if (x.lights.placement == Placement::gltf) RC_ASSERT(x.lights.auto_count == y.lights.auto_count);
     RC_ASSERT(x.lights.seed == y.lights.seed);
     RC_ASSERT(x.lights.radius == y.lights.radius);
     RC_ASSERT(x.lights.radius_ratio == y.lights.radius_ratio);
