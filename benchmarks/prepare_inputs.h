@@ -7,13 +7,19 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "algorithms/froxels/binning.h"
+#include "algorithms/vector_target.h"
+#include "harness/base/error.h"
 #include "harness/base/random.h"
 #include "harness/frame/frame_input.h"
 
@@ -103,9 +109,25 @@ inline void report_stages(benchmark::State& state, const Spans& spans) {
         ms * 1e6 / static_cast<double>(state.iterations()) / static_cast<double>(state.range(0));
 }
 
+// Google Benchmark's options, and --target=NAME: the instruction set that vector code uses, instead of the
+// best.
 inline int run(int argc, char** argv) {
+  constexpr std::string_view option = "--target=";
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (!argument.starts_with(option)) continue;
+    try {
+      simd::use_target(std::string(argument.substr(option.size())));
+    } catch (const UsageError& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      return 2;
+    }
+    std::copy(argv + i + 1, argv + argc, argv + i);
+    --argc;
+    break;
+  }
   benchmark::AddCustomContext("build_type", ML_BUILD_TYPE);
-  benchmark::AddCustomContext("simd", simd::target_name());
+  benchmark::AddCustomContext("vector_target", simd::target_name());
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

@@ -112,8 +112,6 @@ uint64_t bound(const VisibleRun& visible, const BoundsConstants& constants, Ligh
 // other.
 void emit(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
           const BoxOffsets& offsets, FroxelPairs& pairs);
-// The instruction set that is used on this machine, as Highway names it.
-const char* target_name();
 }  // namespace simd
 
 // Sum of the boxes' froxels, the pairs that emit() will write; places as there. bound() returns that of a

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "algorithms/froxels/binning.h"
+#include "algorithms/froxels/kept_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ml::simd::HWY_NAMESPACE {
@@ -89,15 +90,13 @@ size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsCon
     out = hn::Or(out, hn::Lt(distance(y, v.bottom_edge), hn::Mul(minus_radius, bottom_length)));
     out = hn::Or(out, hn::Lt(hn::Neg(distance(y, v.top_edge)), hn::Mul(minus_radius, top_length)));
     MF keep = hn::AndNot(out, hn::FirstN(df, end - i));
-    // Compressed in a register and stored whole: storing through a mask is microcoded, tens of times slower,
-    // on some processors.
-    hn::StoreU(hn::Compress(x, keep), df, &visible.x[next]);
-    hn::StoreU(hn::Compress(y, keep), df, &visible.y[next]);
-    hn::StoreU(hn::Compress(z, keep), df, &visible.z[next]);
-    hn::StoreU(hn::Compress(radius, keep), df, &visible.radius[next]);
-    VU index = hn::Iota(du, static_cast<uint32_t>(i));
-    hn::StoreU(hn::Compress(index, hn::RebindMask(du, keep)), du, &visible.index[next]);
-    next += hn::CountTrue(df, keep);
+    const KeptLanes<Floats> kept(df, keep);
+    kept.store(x, &visible.x[next]);
+    kept.store(y, &visible.y[next]);
+    kept.store(z, &visible.z[next]);
+    kept.store(radius, &visible.radius[next]);
+    kept.store(hn::Iota(du, static_cast<uint32_t>(i)), &visible.index[next]);
+    next += kept.count();
   }
   return next - begin;
 }
@@ -273,10 +272,6 @@ void emit(const LightBox* boxes, const uint32_t* places, size_t count, const Fro
     emit_all<false>(boxes, nullptr, count, grid, offsets, pairs);
 }
 
-const char* target_name() {
-  return hwy::TargetName(HWY_TARGET);
-}
-
 }  // namespace ml::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -286,7 +281,6 @@ namespace ml::simd {
 HWY_EXPORT(cull);
 HWY_EXPORT(bound);
 HWY_EXPORT(emit);
-HWY_EXPORT(target_name);
 
 size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
             VisibleLights& visible, DepthReach* reaches) {
@@ -298,9 +292,6 @@ uint64_t bound(const VisibleRun& visible, const BoundsConstants& constants, Ligh
 void emit(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
           const BoxOffsets& offsets, FroxelPairs& pairs) {
   HWY_DYNAMIC_DISPATCH(emit)(boxes, places, count, grid, offsets, pairs);
-}
-const char* target_name() {
-  return HWY_DYNAMIC_DISPATCH(target_name)();
 }
 
 }  // namespace ml::simd

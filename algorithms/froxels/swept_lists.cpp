@@ -10,6 +10,8 @@
 
 #include <algorithm>
 
+#include "algorithms/froxels/kept_lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace ml::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -42,7 +44,6 @@ class Sweep {
   using Boxes = SweepMemory::Boxes<Lane>;
   using Tag = hn::ScalableTag<Lane>;
   using V = hn::Vec<Tag>;
-  using M = hn::Mask<Tag>;
   // Entries that wait in the nearest cache to be widened.
   static constexpr size_t flush = 4096;
 
@@ -81,10 +82,10 @@ class Sweep {
     const V all_place = hn::Set(d_, place);
     size_t count = 0;
     for (size_t i = 0; i < in; i += hn::Lanes(d_)) {
-      const M kept =
-          hn::Lt(hn::Sub(all_place, hn::LoadU(d_, &(from.*first)[i])), hn::LoadU(d_, &(from.*extent)[i]));
-      (hn::StoreU(hn::Compress(hn::LoadU(d_, &(from.*lanes)[i]), kept), d_, &(to.*lanes)[count]), ...);
-      count += hn::CountTrue(d_, kept);
+      const KeptLanes<Tag> kept(d_, hn::Lt(hn::Sub(all_place, hn::LoadU(d_, &(from.*first)[i])),
+                                           hn::LoadU(d_, &(from.*extent)[i])));
+      (kept.store(hn::LoadU(d_, &(from.*lanes)[i]), &(to.*lanes)[count]), ...);
+      count += kept.count();
     }
     return count;
   }
@@ -118,9 +119,9 @@ class Sweep {
     const auto light = hn::LoadU(d, m_.row.light.data()), first = hn::LoadU(d, m_.row.column.data()),
                extent = hn::LoadU(d, m_.row.columns.data());
     for_each_froxel([=](Lane column, Lane* to) HWY_ATTR {
-      const auto kept = hn::Lt(hn::Sub(hn::Set(d, column), first), extent);
-      hn::StoreU(hn::Compress(light, kept), d, to);
-      return hn::CountTrue(d, kept);
+      const KeptLanes<D> kept(d, hn::Lt(hn::Sub(hn::Set(d, column), first), extent));
+      kept.store(light, to);
+      return kept.count();
     });
   }
   void sift_long_row(size_t in_row) {
@@ -130,9 +131,10 @@ class Sweep {
       const V place = hn::Set(d, column);
       size_t count = 0;
       for (size_t i = 0; i < in_row; i += hn::Lanes(d)) {
-        const M kept = hn::Lt(hn::Sub(place, hn::LoadU(d, first + i)), hn::LoadU(d, extent + i));
-        hn::StoreU(hn::Compress(hn::LoadU(d, light + i), kept), d, to + count);
-        count += hn::CountTrue(d, kept);
+        const KeptLanes<Tag> kept(d,
+                                  hn::Lt(hn::Sub(place, hn::LoadU(d, first + i)), hn::LoadU(d, extent + i)));
+        kept.store(hn::LoadU(d, light + i), to + count);
+        count += kept.count();
       }
       return count;
     });
@@ -193,7 +195,9 @@ size_t lane_bytes(size_t light_end, const FroxelGrid& grid) {
 }
 
 uint32_t sweep_lanes(size_t light_end, const FroxelGrid& grid) {
-  return static_cast<uint32_t>(hn::Lanes(hn::ScalableTag<uint8_t>()) / lane_bytes(light_end, grid));
+  // Portable code has one lane, whatever its bytes.
+  const size_t bytes = hn::Lanes(hn::ScalableTag<uint8_t>());
+  return static_cast<uint32_t>(std::max<size_t>(bytes / lane_bytes(light_end, grid), 1));
 }
 
 uint32_t sweep(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,

@@ -69,6 +69,11 @@ void Forest::build(const FroxelLists& lists, const ForestSettings& settings, Thr
   });
 }
 
+void Forest::mark_node_tiles(std::span<uint8_t> tiles) const {
+  for (size_t c = 0; c < chunk_count_; ++c)
+    for (uint32_t tile : std::span(chunks_[c].node_tiles).first(chunks_[c].node_cells)) tiles[tile] = 1;
+}
+
 void Forest::copy_nodes(TreeNode* to, Threads& threads) const {
   threads.for_each(chunk_count_, [&](size_t c) {
     const ForestChunk& chunk = chunks_[c];

@@ -32,6 +32,8 @@ class Forest {
   // Cells with lights that are a list or a tree.
   uint64_t list_cells() const { return list_cells_; }
   uint64_t tree_cells() const { return tree_cells_; }
+  // Sets the elements of the tiles that have nodes in some slice to 1.
+  void mark_node_tiles(std::span<uint8_t> tiles) const;
 
  private:
   std::vector<ForestChunk> chunks_;

@@ -214,61 +214,89 @@ HWY_INLINE size_t write_tree(DepthReach* bounds, uint32_t lights, uint32_t first
   return 2 * leaves - 1;
 }
 
+// A row of cells, whose lists begin at the offsets, as lists.
+struct ListRow {
+  uint32_t longest = 0;  // the most lights of a cell
+  uint32_t filled = 0;   // cells with lights
+};
+HWY_INLINE ListRow write_lists(const uint32_t* offsets, uint32_t count, TreeCell* cells) {
+  // No wider than cells of a row usually are.
+  const hn::CappedTag<uint32_t, 8> du;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
+  const auto flag = hn::Set(du, ML_TREE_CELL_LIST);
+  auto most = hn::Zero(du), filled = hn::Zero(du);
+  uint32_t c = 0;
+  for (; c + lanes <= count; c += lanes) {
+    const auto first = hn::LoadU(du, offsets + c);
+    const auto lights = hn::Sub(hn::LoadU(du, offsets + c + 1), first);
+    const auto empty = hn::Eq(lights, hn::Zero(du));
+    most = hn::Max(most, lights);
+    filled = hn::Add(filled, hn::IfThenZeroElse(empty, hn::Set(du, 1)));
+    hn::StoreInterleaved2(hn::IfThenZeroElse(empty, first), hn::IfThenZeroElse(empty, hn::Or(lights, flag)),
+                          du, &cells[c].first);
+  }
+  ListRow row{hn::GetLane(hn::MaxOfLanes(du, most)), hn::GetLane(hn::SumOfLanes(du, filled))};
+  for (; c < count; ++c) {
+    const uint32_t lights = offsets[c + 1] - offsets[c];
+    row.longest = std::max(row.longest, lights);
+    row.filled += lights > 0;
+    cells[c] = lights > 0 ? TreeCell{offsets[c], ML_TREE_CELL_LIST | lights} : TreeCell{0, 0};
+  }
+  return row;
+}
+
 void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
                  std::span<const FroxelGrid::DepthRange> cell_depths, TreeCell* cells, ForestChunk& chunk) {
   const uint32_t columns = lists.grid().columns, tiles = lists.grid().tiles();
   const uint32_t* offsets = lists.offsets().data();
   const std::span<const uint32_t> entries = lists.entries();
   const DepthReach* reach_of_light = lists.reach_of_light().data();
+  const uint32_t short_list = settings.short_list();
   reserve_padded(chunk.bounds, lists.longest() / settings.lights_per_leaf + 2);
+  reserve_padded(chunk.node_tiles, chunk.end_cell - chunk.first_cell);
   DepthReach* bounds = chunk.bounds.data();
   StepSum unused;
   size_t count = 0;
-  chunk.list_cells = chunk.tree_cells = 0;
+  uint64_t filled = 0;
+  chunk.tree_cells = 0;
+  chunk.node_cells = 0;
   // A row of froxels at a time, or the part of it that is the chunk's.
-  for (uint32_t cell = chunk.first_cell; cell < chunk.end_cell;) {
-    const uint32_t row_first = offsets[cell],
-                   row_end = std::min(cell + columns - cell % columns, chunk.end_cell);
-    const FroxelGrid::DepthRange extent = cell_depths[cell / tiles];
-    const size_t row_lights = offsets[row_end] - row_first;
-    uint32_t longest = 0;
-    for (uint32_t c = cell; c < row_end; ++c) longest = std::max(longest, offsets[c + 1] - offsets[c]);
+  for (uint32_t row_cell = chunk.first_cell, row_end; row_cell < chunk.end_cell; row_cell = row_end) {
+    row_end = std::min(row_cell + columns - row_cell % columns, chunk.end_cell);
+    const ListRow row = write_lists(offsets + row_cell, row_end - row_cell, cells + row_cell);
+    filled += row.filled;
     // No depth matters where all cells are short lists.
-    const uint32_t short_list = settings.short_list();
-    if (longest > short_list || settings.list_nodes) {
-      reserve_padded(chunk.reaches, row_lights);
-      collect(entries.subspan(row_first), row_lights, reach_of_light, chunk.reaches.data());
-    }
+    if (row.longest <= short_list && !settings.list_nodes) continue;
+    const FroxelGrid::DepthRange extent = cell_depths[row_cell / tiles];
+    const uint32_t row_first = offsets[row_cell];
+    const size_t row_lights = offsets[row_end] - row_first;
+    reserve_padded(chunk.reaches, row_lights);
+    collect(entries.subspan(row_first), row_lights, reach_of_light, chunk.reaches.data());
     const DepthReach* reaches = chunk.reaches.data();
-    for (; cell < row_end; ++cell) {
+    for (uint32_t cell = row_cell; cell < row_end; ++cell) {
       const uint32_t first = offsets[cell], lights = offsets[cell + 1] - first;
+      if (lights <= short_list && !(settings.list_nodes && lights > 0)) continue;
       TreeNode* nodes = chunk.nodes + count;
       size_t written = 0;
       if (lights > short_list) {
         const uint32_t per_leaf = leaf_size(settings.lights_per_leaf, lights);
         const uint64_t sum = bound_leaves(reaches + (first - row_first), lights, per_leaf, extent, bounds);
-        const bool tree = lights > per_leaf && is_tree(sum, lights, settings.threshold);
-        if (tree)
+        if (lights > per_leaf && is_tree(sum, lights, settings.threshold)) {
           written = write_tree(bounds, lights, first, per_leaf, settings.trim_padding, nodes);
-        else if (settings.list_nodes)
+          ++chunk.tree_cells;
+        } else if (settings.list_nodes) {
           written = write_list(bounds, lights, first, per_leaf, nodes);
-        chunk.tree_cells += tree;
-        chunk.list_cells += !tree;
-      } else {
-        chunk.list_cells += lights > 0;
-        if (settings.list_nodes && lights > 0) {
-          const DepthReach all = leaf_reach<false>(reaches + (first - row_first), lights, {}, 0, unused);
-          *nodes = node_of(all, first, packed(true, lights, 1));
-          written = 1;
         }
+      } else {
+        const DepthReach all = leaf_reach<false>(reaches + (first - row_first), lights, {}, 0, unused);
+        *nodes = node_of(all, first, packed(true, lights, 1));
+        written = 1;
       }
-      if (written > 0)
-        cells[cell] = {static_cast<uint32_t>(count), static_cast<uint32_t>(count + written)};
-      else
-        cells[cell] = lights > 0 ? TreeCell{first, ML_TREE_CELL_LIST | lights} : TreeCell{0, 0};
+      if (written > 0) cells[cell] = {static_cast<uint32_t>(count), static_cast<uint32_t>(count + written)};
       count += written;
     }
   }
+  chunk.list_cells = filled - chunk.tree_cells;
   chunk.count = count;
 }
 

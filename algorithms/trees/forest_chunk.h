@@ -35,6 +35,8 @@ struct ForestChunk {
   size_t count = 0;                     // of nodes written
   uint64_t first_node = 0;              // of all nodes
   uint64_t list_cells = 0, tree_cells = 0;
+  size_t node_cells = 0;             // cells that have nodes
+  std::vector<uint32_t> node_tiles;  // and the tile of each
   // Scratch: the depths of the lights in one row of froxels, and the bounds of one cell's tree level by
   // level.
   std::vector<DepthReach> reaches, bounds;

@@ -67,14 +67,8 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
 }
 
 void TreePrepare::classify_tiles() {
-  const uint32_t tiles = lists_.grid().tiles();
-  class_of_tile_.assign(tiles, 0);
-  const auto cells = forest_.cells();
-  for (size_t first = 0; first < cells.size(); first += tiles)
-    for (uint32_t tile = 0; tile < tiles; ++tile) {
-      const uint32_t end = cells[first + tile].end;
-      class_of_tile_[tile] |= static_cast<uint8_t>(end != 0 && (end & ML_TREE_CELL_LIST) == 0);
-    }
+  class_of_tile_.assign(lists_.grid().tiles(), 0);
+  forest_.mark_node_tiles(class_of_tile_);
 }
 
 TileClasses TreePrepare::tile_classes() const {

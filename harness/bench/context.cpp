@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string>
 
+#include "algorithms/vector_target.h"
 #include "build_info.h"
 
 namespace ml {
@@ -73,6 +74,7 @@ nlohmann::json run_context(const gpu::Device& device, const Calibration& calibra
           {"host",
            {{"cpu", cpu_model()},
             {"cores", static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN))},
+            {"vector_target", simd::target_name()},
             {"memory_bytes",
              static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE))},
             {"system", system_name()},

@@ -1,0 +1,258 @@
+// Vector code gives the bits of scalar code with every instruction set that the processor has.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "algorithms/froxels/reference_lists.h"
+#include "algorithms/trees/reference_forest.h"
+#include "algorithms/vector_target.h"
+#include "binning_cases.h"
+#include "harness/base/error.h"
+#include "plain_memory.h"
+
+namespace ml {
+namespace {
+
+using namespace test;
+
+constexpr uint64_t no_limit = uint64_t{1} << 28;
+
+// Calls body() with each instruction set in turn.
+template <typename Body>
+void with_every_target(Body body) {
+  for (const std::string& name : simd::target_names()) {
+    SCOPED_TRACE(name);
+    simd::use_target(name);
+    body();
+    simd::use_target("");
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+// Numbers of lights around those that fill whole vectors, and any others.
+uint32_t random_count(Random& random, uint32_t seed) {
+  constexpr uint32_t lanes[] = {1, 4, 8, 16, 32, 64};
+  if (seed % 3 == 0) return lanes[random.below(6)] * (1 + random.below(5)) - 1 + random.below(3);
+  return seed % 50 == 1 ? 0 : random.below(500);
+}
+
+struct RandomFrame {
+  Random random;
+  Camera camera;
+  BinningFrame fixture;
+  explicit RandomFrame(uint32_t seed)
+      : random(seed),
+        camera(random_camera(random)),
+        fixture(seed % 2 ? random_small_lights(random, random_count(random, seed), camera)
+                         : random_lights(random, random_count(random, seed), camera),
+                camera, 1 + random.below(400), 1 + random.below(400)) {}
+  const FrameInput& frame() const { return fixture.frame; }
+  BoundsConstants constants() {
+    const FroxelSettings s = random_settings(random);
+    return BoundsConstants(frame().view, FroxelGrid::make(frame().view, s.tile, s.slices, s.zmin, s.zmax));
+  }
+};
+
+std::vector<uint32_t> bits_of(const std::vector<float>& values, size_t count) {
+  std::vector<uint32_t> bits;
+  for (size_t i = 0; i < count; ++i) bits.push_back(std::bit_cast<uint32_t>(values[i]));
+  return bits;
+}
+
+void expect_same(const VisibleLights& a, const VisibleLights& b) {
+  ASSERT_EQ(a.count, b.count);
+  for (auto column : {&VisibleLights::x, &VisibleLights::y, &VisibleLights::z, &VisibleLights::radius})
+    ASSERT_EQ(bits_of(a.*column, a.count), bits_of(b.*column, b.count));
+  ASSERT_TRUE(
+      std::equal(a.index.begin(), a.index.begin() + static_cast<ptrdiff_t>(a.count), b.index.begin()));
+}
+
+VisibleLights culled(const FrameInput& frame, const BoundsConstants& constants) {
+  VisibleLights visible;
+  visible.reserve(frame.lights.count());
+  visible.count = scalar::cull(frame.lights, 0, frame.lights.count(), constants, visible);
+  return visible;
+}
+
+TEST(VectorTargets, AreNamedAndChosenByName) {
+  const std::vector<std::string> names = simd::target_names();
+  ASSERT_FALSE(names.empty());
+  EXPECT_EQ(simd::target_name(), names.front());
+  for (const std::string& name : names) {
+    simd::use_target(name);
+    EXPECT_EQ(simd::target_name(), name);
+  }
+  simd::use_target("");
+  EXPECT_EQ(simd::target_names(), names);
+  try {
+    simd::use_target("AVX9");
+    FAIL() << "an unknown instruction set was taken";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find(names.back()), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(simd::target_name(), names.front());
+}
+
+TEST(VectorTargets, CullGivesTheScalarBits) {
+  with_every_target([] {
+    for (uint32_t seed = 0; seed < 150; ++seed) {
+      SCOPED_TRACE(seed);
+      RandomFrame given(seed);
+      const BoundsConstants constants = given.constants();
+      const size_t lights = given.frame().lights.count();
+      const VisibleLights expected = culled(given.frame(), constants);
+      VisibleLights visible;
+      visible.reserve(lights);
+      std::vector<DepthReach> reaches;
+      reserve_padded(reaches, lights);
+      visible.count = simd::cull(given.frame().lights, 0, lights, constants, visible, reaches.data());
+      expect_same(visible, expected);
+      if (testing::Test::HasFatalFailure()) return;
+      for (size_t i = 0; i < visible.count; ++i) {
+        const DepthInterval depth = scalar::depth_interval(visible.z[i], visible.radius[i]);
+        const DepthReach reach = reaches[visible.index[i]];
+        ASSERT_EQ(std::bit_cast<uint32_t>(-reach.minus_low), std::bit_cast<uint32_t>(depth.low));
+        ASSERT_EQ(std::bit_cast<uint32_t>(reach.high), std::bit_cast<uint32_t>(depth.high));
+      }
+    }
+  });
+}
+
+TEST(VectorTargets, BoundsGiveTheScalarBits) {
+  with_every_target([] {
+    for (uint32_t seed = 0; seed < 150; ++seed) {
+      SCOPED_TRACE(seed);
+      RandomFrame given(1000 + seed);
+      const BoundsConstants constants = given.constants();
+      const VisibleLights visible = culled(given.frame(), constants);
+      std::vector<LightBox> boxes, expected;
+      reserve_padded(boxes, visible.count);
+      reserve_padded(expected, visible.count);
+      const uint64_t sum = simd::bound(visible, constants, boxes.data());
+      ASSERT_EQ(sum, scalar::bound(visible, constants, expected.data()));
+      for (size_t i = 0; i < visible.count; ++i) {
+        const auto words = [](const LightBox& box) { return std::bit_cast<std::array<uint32_t, 4>>(box); };
+        ASSERT_EQ(words(boxes[i]), words(expected[i])) << "light " << visible.index[i];
+      }
+    }
+  });
+}
+
+TEST(VectorTargets, PairsAreThoseOfTheBoxes) {
+  with_every_target([] {
+    for (uint32_t seed = 0; seed < 60; ++seed) {
+      SCOPED_TRACE(seed);
+      RandomFrame given(2000 + seed);
+      const BoundsConstants constants = given.constants();
+      const FroxelGrid& grid = constants.grid;
+      const VisibleLights visible = culled(given.frame(), constants);
+      std::vector<LightBox> boxes;
+      reserve_padded(boxes, visible.count);
+      const uint64_t sum = scalar::bound(visible, constants, boxes.data());
+      BoxOffsets offsets;
+      offsets.build(grid);
+      FroxelPairs pairs;
+      reserve_pairs(pairs, sum);
+      // Backwards, as places of another order.
+      std::vector<uint32_t> places;
+      reserve_padded(places, visible.count);
+      for (size_t i = 0; i < visible.count; ++i) places[i] = static_cast<uint32_t>(visible.count - 1 - i);
+      for (bool ordered : {false, true}) {
+        const uint32_t* order = ordered ? places.data() : nullptr;
+        simd::emit(boxes.data(), order, visible.count, grid, offsets, pairs);
+        ASSERT_EQ(pairs.count, sum);
+        size_t next = 0;
+        for (size_t i = 0; i < visible.count; ++i) {
+          const LightBox& box = boxes[order ? order[i] : i];
+          for (uint32_t slice = 0; slice < box.slices; ++slice)
+            for (uint32_t row = 0; row < box.rows; ++row)
+              for (uint32_t column = 0; column < box.columns; ++column, ++next) {
+                ASSERT_EQ(pairs.cell[next], box.first + grid.cell(column, row, slice));
+                ASSERT_EQ(pairs.light[next], box.light);
+              }
+        }
+      }
+    }
+  });
+}
+
+// Whether it would be taken or not, and with lanes of 8, 16 and 32 bits.
+TEST(VectorTargets, SweptListsAreThoseOfTheBoxes) {
+  with_every_target([] {
+    for (uint32_t seed = 0; seed < 60; ++seed) {
+      SCOPED_TRACE(seed);
+      RandomFrame given(4000 + seed);
+      const BoundsConstants constants = given.constants();
+      const FroxelGrid& grid = constants.grid;
+      const VisibleLights visible = culled(given.frame(), constants);
+      std::vector<LightBox> boxes;
+      reserve_padded(boxes, visible.count);
+      const uint64_t sum = scalar::bound(visible, constants, boxes.data());
+      std::vector<std::vector<uint32_t>> expected(grid.cells());
+      for (size_t i = 0; i < visible.count; ++i)
+        for (uint32_t slice = 0; slice < boxes[i].slices; ++slice)
+          for (uint32_t row = 0; row < boxes[i].rows; ++row)
+            for (uint32_t column = 0; column < boxes[i].columns; ++column)
+              expected[boxes[i].first + grid.cell(column, row, slice)].push_back(boxes[i].light);
+      for (size_t light_end : {given.frame().lights.count(), size_t{0x10000}, size_t{0x10001}}) {
+        SweepMemory memory;
+        std::vector<uint32_t> offsets, list;
+        reserve_padded(offsets, grid.cells() + size_t{1});
+        reserve_padded(list, sum);
+        const uint32_t longest = simd::sweep(boxes.data(), nullptr, visible.count, grid, light_end, memory,
+                                             offsets.data(), list.data());
+        ASSERT_EQ(offsets[grid.cells()], sum);
+        size_t most = 0;
+        for (uint32_t cell = 0; cell < grid.cells(); ++cell) {
+          const auto found = std::span(list).subspan(offsets[cell], offsets[cell + 1] - offsets[cell]);
+          ASSERT_TRUE(std::ranges::equal(found, expected[cell])) << "cell " << cell;
+          most = std::max(most, found.size());
+        }
+        ASSERT_EQ(longest, most);
+      }
+    }
+  });
+}
+
+// The order by index and by depth, trees and lists of nodes.
+TEST(VectorTargets, ListsAndTreesAreThoseOfTheReference) {
+  with_every_target([] {
+    for (uint32_t seed = 0; seed < 60; ++seed) {
+      SCOPED_TRACE(seed);
+      RandomFrame given(3000 + seed);
+      FroxelSettings froxels = random_settings(given.random);
+      froxels.refinement = false;
+      Spans spans;
+      FroxelLists lists{"test"};
+      ReferenceLists reference;
+      lists.build(given.frame(), froxels, no_limit, spans);
+      reference.build(given.frame(), froxels);
+      ASSERT_TRUE(std::ranges::equal(lists.offsets(), reference.offsets()));
+      ASSERT_TRUE(std::ranges::equal(lists.entries(), reference.entries()));
+
+      froxels.order = FroxelSettings::Order::depth;
+      ForestSettings trees;
+      trees.lights_per_leaf = 1 + given.random.below(20);
+      trees.threshold = given.random.below(2) ? 1 : 0.4f;
+      trees.list_nodes = given.random.below(2) != 0;
+      lists.build(given.frame(), froxels, no_limit, spans);
+      reference.build(given.frame(), froxels);
+      Forest forest;
+      forest.build(lists, trees, *given.frame().threads);
+      std::vector<gpu_data::TreeNode> nodes(forest.nodes());
+      forest.copy_nodes(nodes.data(), *given.frame().threads);
+      ReferenceForest expected;
+      expected.build(reference, trees);
+      ASSERT_TRUE(std::ranges::equal(lists.entries(), expected.lights()));
+      const auto node_words = [](const auto& node) { return std::bit_cast<std::array<uint32_t, 4>>(node); };
+      const auto cell_words = [](const auto& cell) { return std::bit_cast<std::array<uint32_t, 2>>(cell); };
+      ASSERT_TRUE(std::ranges::equal(nodes, expected.nodes(), {}, node_words, node_words));
+      ASSERT_TRUE(std::ranges::equal(forest.cells(), expected.cells(), {}, cell_words, cell_words));
+    }
+  });
+}
+
+}  // namespace
+}  // namespace ml
