@@ -292,7 +292,9 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
         *nodes = node_of(all, first, packed(true, lights, 1));
         written = 1;
       }
-      if (written > 0) cells[cell] = {static_cast<uint32_t>(count), static_cast<uint32_t>(count + written)};
+      if (written == 0) continue;
+      cells[cell] = {static_cast<uint32_t>(count), static_cast<uint32_t>(count + written)};
+      chunk.node_tiles[chunk.node_cells++] = cell % tiles;
       count += written;
     }
   }

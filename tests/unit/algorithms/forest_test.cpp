@@ -265,6 +265,39 @@ TEST(Forest, ThresholdChoosesListsAndTrees) {
   EXPECT_GT(trees_before, 0u);
 }
 
+// Shaders of the class without trees read no nodes.
+TEST(Forest, TilesWithNodesAreAClassOfTheirOwn) {
+  uint32_t with_nodes = 0, without = 0;
+  for (uint32_t seed = 0; seed < 60; ++seed) {
+    Random random(6000 + seed);
+    Camera camera = random_camera(random);
+    const std::vector<Light> lights = random_small_lights(random, random.below(600), camera);
+    const FroxelSettings froxels = random_settings(random);
+    const ForestSettings settings = random_forest(random);
+    for (unsigned threads : {1u, 3u}) {
+      BinningFrame fixture(lights, camera, 200, 120, threads);
+      TreePrepare prepare("test", froxels, settings);
+      PlainMemory memory;
+      Spans spans;
+      prepare.prepare(fixture.frame, memory, spans);
+      const TileClasses classes = prepare.tile_classes();
+      const uint32_t tiles = prepare.lists().grid().tiles();
+      ASSERT_EQ(classes.of_tile.size(), tiles);
+      for (uint32_t tile = 0; tile < tiles; ++tile) {
+        bool nodes = false;
+        for (uint32_t cell = tile; cell < prepare.lists().grid().cells(); cell += tiles) {
+          const uint32_t end = prepare.forest().cells()[cell].end;
+          nodes = nodes || (end != 0 && (end & ML_TREE_CELL_LIST) == 0);
+        }
+        ASSERT_EQ(classes.of_tile[tile], nodes ? 1 : 0) << "seed " << seed << ", tile " << tile;
+        (nodes ? with_nodes : without) += 1;
+      }
+    }
+  }
+  EXPECT_GT(with_nodes, 0u);
+  EXPECT_GT(without, 0u);
+}
+
 TEST(Forest, DoNotDependOnTheNumberOfThreads) {
   for (uint32_t count : {0u, 1u, 2047u, 65537u}) {
     Random random(count);
