@@ -67,6 +67,9 @@ struct FrameLights {
 // What prepare() sees.
 struct FrameInput {
   uint32_t index = 0;  // frame number in the camera path
+  // Nothing leads over from the frame before (the first frame, a camera that jumps): what is kept of that one
+  // must not be used.
+  bool after_cut = true;
   gpu_data::ViewData view;
   FrameLights lights;
   Threads* threads = nullptr;  // never null in prepare()

@@ -5,6 +5,7 @@
 #include "shaders/shared/material.h"
 
 layout(constant_id = 0) const bool EFFECT_ALPHA_MASK = false;
+layout(constant_id = 1) const bool EFFECT_CLIP_FAR = false;  // the camera of some frame has a far plane
 layout(push_constant, scalar) uniform Push { MaterialData material; };
 layout(binding = 2) uniform sampler2D BaseColor;
 layout(location = 0) in vec3 in_normal;
@@ -15,6 +16,8 @@ layout(location = 1) out uint out_forward;  // number of the triangle, from 1, w
 #endif
 
 void main() {
+  // Reversed depth without a far plane: near / z.
+  if (EFFECT_CLIP_FAR && view.clip_far > 0.0 && gl_FragCoord.z * view.clip_far < view.near) discard;
   vec4 color = material.base_color * texture(BaseColor, in_uv);
   if (EFFECT_ALPHA_MASK && color.a < material.alpha_cutoff) discard;
   // A normal of length 0 (or NaN) in a file must not become a NaN in the picture.

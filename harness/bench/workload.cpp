@@ -56,6 +56,7 @@ Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const S
   effects_.long_lists = lights_->base().size() > Effects::most_turns;
   effects_.alpha_mask = setup.effects.alpha_mask && Level::has_masked_material(*scene_);
   effects_.forward = setup.effects.forward && Level::has_forward_material(*scene_);
+  effects_.clip_far = path_.clips_far;
   effects_.split_targets = setup.shading.targets == ShadingTargets::split;
   effects_.shadow_maps = setup.shading.shadow_maps;
   effects_.shadow_map_size = setup.shading.shadow_map_size;

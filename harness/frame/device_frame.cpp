@@ -62,7 +62,7 @@ DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const Effects&
                          uint32_t height)
     : device_(device),
       effects_(effects),
-      level_(device, scene, effects.alpha_mask, effects.forward, effects.shadow_maps > 0),
+      level_(device, scene, effects.alpha_mask, effects.forward, effects.shadow_maps > 0, effects.clip_far),
       targets_(device, width, height, effects.forward, effects.split_targets),
       commands_(device),
       view_(device, sizeof(gpu_data::ViewData), gpu::MemoryKind::upload, "view"),

@@ -20,6 +20,7 @@ std::vector<std::string> Effects::names(const gpu::Device& device) const {
   if (specular) list.emplace_back("specular");
   if (alpha_mask) list.emplace_back("alpha_mask");
   if (forward) list.emplace_back("forward");
+  if (clip_far) list.emplace_back("clip_far");
   if (split_targets) list.emplace_back("split_targets");
   if (shadow_maps) list.emplace_back("shadow_maps");
   if (compute_lists) list.emplace_back("compute_lists");

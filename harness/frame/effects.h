@@ -21,7 +21,8 @@ struct Effects {
   bool probes = false;
   bool specular = true;
   bool alpha_mask = false;
-  bool forward = false;  // materials that are lit in a pass of their own
+  bool forward = false;   // materials that are lit in a pass of their own
+  bool clip_far = false;  // the camera has a far plane that cuts the level
   // The shading pass writes diffuse and specular light apart (shading.targets: split), not a property of the
   // content.
   bool split_targets = false;

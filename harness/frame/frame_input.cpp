@@ -80,6 +80,7 @@ gpu_data::ViewData view_data(const Camera& camera, uint32_t width, uint32_t heig
   view.resolution = {width, height};
   view.near = p.near;
   view.far = p.far;
+  view.clip_far = p.clips_far ? p.far : 0;
   view.orthographic = p.kind == ProjectionKind::orthographic;
   view.light_count = light_count;
   return view;
@@ -144,6 +145,7 @@ const FrameInput& FrameSequence::at(uint32_t index) {
   set_.at(index, frames_, path_.duration(), active_, &identity_);
   storage_.fill(active_, camera_.position, shapes_);
   input_.index = index;
+  input_.after_cut = path_.cuts(index, frames_);
   input_.view = view_data(camera_, width_, height_, static_cast<uint32_t>(active_.size()));
   input_.lights = storage_.lights();
   input_.lights.identity = identity_;

@@ -40,14 +40,16 @@ gpu::RasterState vertex_state() {
   return state;
 }
 
-std::unique_ptr<gpu::RasterProgram> gbuffer_program(gpu::Device& device, bool masked, bool forward) {
+std::unique_ptr<gpu::RasterProgram> gbuffer_program(gpu::Device& device, bool masked, bool forward,
+                                                    bool clip_far) {
   gpu::RasterState state = vertex_state();
   state.colors = {gpu::Format::rg32_uint};
   if (forward) state.colors.push_back(gpu::Format::r32_uint);
   return std::make_unique<gpu::RasterProgram>(
       device, gbuffer_vert,
       forward ? std::span<const uint32_t>(gbuffer_forward_frag) : std::span<const uint32_t>(gbuffer_frag),
-      masked ? "gbuffer (alpha mask)" : "gbuffer", state, std::vector<gpu::Constant>{{0, masked}});
+      masked ? "gbuffer (alpha mask)" : "gbuffer", state,
+      std::vector<gpu::Constant>{{0, masked}, {1, clip_far}});
 }
 
 // Opaque triangles need no fragment shader, and of a vertex its position alone.
@@ -77,7 +79,8 @@ bool Level::has_forward_material(const Scene& scene) {
   });
 }
 
-Level::Level(gpu::Device& device, const Scene& scene, bool alpha_mask, bool forward, bool shadows)
+Level::Level(gpu::Device& device, const Scene& scene, bool alpha_mask, bool forward, bool shadows,
+             bool clip_far)
     : vertices_(filled(device, scene.vertices, "vertices")),
       indices_(filled(device, scene.indices, "indices")) {
   if (forward && !device.limits().fragment_triangles)
@@ -106,8 +109,8 @@ Level::Level(gpu::Device& device, const Scene& scene, bool alpha_mask, bool forw
   }
   bool any_masked =
       std::any_of(items_.begin(), items_.end(), [](const DrawItem& item) { return item.masked; });
-  opaque_ = gbuffer_program(device, false, forward);
-  if (any_masked) masked_ = gbuffer_program(device, true, forward);
+  opaque_ = gbuffer_program(device, false, forward, clip_far);
+  if (any_masked) masked_ = gbuffer_program(device, true, forward, clip_far);
   if (!shadows) return;
   depth_opaque_ = depth_program(device, false);
   if (any_masked) depth_masked_ = depth_program(device, true);

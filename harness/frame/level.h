@@ -14,8 +14,10 @@ class Level {
  public:
   // Uploads vertices, indices and textures. `alpha_mask` false: masked materials are drawn whole; `forward`
   // false: forward materials are like any others (effects forced off); `shadows`: record_depth() will be
-  // asked for. Throws SystemError when the device cannot hold the level, or cannot draw forward materials.
-  Level(gpu::Device& device, const Scene& scene, bool alpha_mask, bool forward = false, bool shadows = false);
+  // asked for; `clip_far`: views may have a clip_far. Throws SystemError when the device cannot hold the
+  // level, or cannot draw forward materials.
+  Level(gpu::Device& device, const Scene& scene, bool alpha_mask, bool forward = false, bool shadows = false,
+        bool clip_far = false);
 
   // A program of the forward pass; `fragment` is ShadeShaders::forward or its counting twin.
   static gpu::RasterProgram forward_program(gpu::Device& device, std::span<const uint32_t> fragment,

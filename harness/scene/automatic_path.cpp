@@ -6,9 +6,11 @@
 
 #include "harness/base/random.h"
 #include "harness/scene/floor_points.h"
+#include "harness/scene/orbit_path.h"
 #include "harness/scene/ray_caster.h"
 #include "harness/scene/scene.h"
 #include "harness/scene/turn.h"
+#include "harness/scene/view_probe.h"
 #include "harness/scene/walk_graph.h"
 
 namespace ml {
@@ -213,21 +215,6 @@ CameraPath look_round(const glm::dvec3& eye) {
   return path;
 }
 
-// Once around the level, outside its bounding sphere.
-CameraPath around(const Bounds& bounds, uint32_t seed) {
-  CameraPath path;
-  path.name = "default";
-  glm::dvec3 center(0.5 * (glm::dvec3(bounds.min) + glm::dvec3(bounds.max)));
-  double radius = 0.65 * glm::length(glm::dvec3(bounds.max) - glm::dvec3(bounds.min)) + 0.5;
-  double begin = static_cast<double>(unit_float(hash_u32(seed, 5u)));
-  for (int i = 0; i <= 12; ++i) {
-    double turns = begin + i / 12.0;
-    glm::dvec3 side(0.92 * cosine_of_turns(turns), 0.39, 0.92 * sine_of_turns(turns));
-    path.keys.push_back({40.0 * i / 12, center + radius * side, center});
-  }
-  return path;
-}
-
 CameraPath walk(const RayCaster& rays, const std::vector<FloorPoint>& points, uint32_t seed,
                 const Stature& stature) {
   WalkGraph graph(rays, points, stature);
@@ -248,10 +235,47 @@ CameraPath walk(const RayCaster& rays, const std::vector<FloorPoint>& points, ui
   return look_round(widest->eye);
 }
 
+// A walk shows the level: in every frame at least so much of the picture is a surface. Not where the visitor
+// stands on a small object and looks past it.
+constexpr double kLeastSeen = 0.05;
+constexpr uint32_t kColumns = 12, kRows = 12;
+
+bool shows_the_level(const ViewProbe& probe, const CameraPath& path, float near) {
+  const uint32_t steps = kStepsPerKey / 4 * static_cast<uint32_t>(path.keys.size());
+  for (uint32_t step = 0; step < steps; ++step)
+    if (probe.seen(path.sample(step, steps, 1, 1, near, 2 * near), kColumns, kRows) < kLeastSeen)
+      return false;
+  return true;
+}
+
+// Where a key sees too little, it looks somewhat down, along the directions that show most.
+void aim_at_surfaces(const ViewProbe& probe, CameraPath& path, float near) {
+  constexpr int kDirections = 16;
+  constexpr std::array<double, 3> kPitches{-0.03, -0.07, -0.12};  // turns
+  const Projection window = Projection::perspective(path.vertical_fov, 1, near, 2 * near);
+  for (CameraKey& key : path.keys) {
+    double best = probe.seen(Camera::look_at(key.position, key.target, window), kColumns, kRows);
+    if (best >= 2 * kLeastSeen) continue;
+    for (double pitch : kPitches) {
+      for (int d = 0; d < kDirections; ++d) {
+        const double turns = static_cast<double>(d) / kDirections, level = cosine_of_turns(pitch);
+        const glm::dvec3 target =
+            key.position + kTargetAhead * glm::dvec3(level * cosine_of_turns(turns), sine_of_turns(pitch),
+                                                     level * sine_of_turns(turns));
+        const double seen = probe.seen(Camera::look_at(key.position, target, window), kColumns, kRows);
+        if (seen <= best) continue;
+        best = seen;
+        key.target = target;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 CameraPath automatic_path(const Scene& scene, uint32_t seed) {
   RayCaster rays(scene);
+  const ViewProbe probe(scene, rays);
   // Within walls if possible; in a level too low for a grown visitor a smaller one walks.
   constexpr std::array<std::pair<double, FloorKind>, 4> kWays{
       {{1, FloorKind::walled}, {0.5, FloorKind::walled}, {0.25, FloorKind::walled}, {1, FloorKind::any}}};
@@ -260,9 +284,13 @@ CameraPath automatic_path(const Scene& scene, uint32_t seed) {
     std::vector<FloorPoint> points =
         thinned(find_floor_points(rays, scene.bounds, seed, stature, kind), seed);
     if (points.empty()) continue;
-    return walk(rays, points, seed, stature);
+    CameraPath path = walk(rays, points, seed, stature);
+    if (shows_the_level(probe, path, scene.near)) return path;
+    aim_at_surfaces(probe, path, scene.near);
+    if (shows_the_level(probe, path, scene.near)) return path;
+    break;  // what is there to stand on is no place to look from
   }
-  return around(scene.bounds, seed);
+  return orbit_path(scene, probe, seed);
 }
 
 }  // namespace ml

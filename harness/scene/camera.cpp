@@ -26,6 +26,13 @@ glm::dvec3 hermite(const std::vector<CameraKey>& keys, size_t i, double u, glm::
          (3 * u2 - 2 * u3) * (keys[i + 1].*value) + (u3 - u2) * span * tangent(keys, i + 1, value);
 }
 
+// The carrier's world transform, relative to the scene's origin.
+glm::dmat4 view_of(const CameraNode& carrier, double time) {
+  glm::dmat4 world = carrier.motions->world(carrier.node, time);
+  world[3] -= glm::dvec4(carrier.center, 0);
+  return world;
+}
+
 }  // namespace
 
 Projection Projection::perspective(float vertical_fov, float aspect, float near, float far) {
@@ -41,17 +48,22 @@ Projection Projection::orthographic(float half_width, float half_height, float n
   return {ProjectionKind::orthographic, -half_width, half_width, -half_height, half_height, near, far};
 }
 
-Camera Camera::look_at(const glm::dvec3& position, const glm::dvec3& target, const Projection& projection) {
+Camera Camera::look_at(const glm::dvec3& position, const glm::dvec3& target, const Projection& projection,
+                       const glm::dvec3& up) {
   glm::dvec3 ahead = target - position;
   // Divided by the largest component first, so that neither tiny nor huge distances leave the range of the
   // squares.
   double scale = std::max({std::abs(ahead.x), std::abs(ahead.y), std::abs(ahead.z)});
   glm::dvec3 forward(0, 0, -1);
   if (finite(ahead) && scale > 0) forward = glm::normalize(ahead / scale);
+  glm::dvec3 side(0);
+  if (const double length = glm::length(up); length > 1e-150 && std::isfinite(length))
+    side = glm::cross(forward, up / length);
+  if (glm::dot(side, side) < 1e-20) side = glm::cross(forward, glm::dvec3(0, 1, 0));
   // Within about 0.03 degrees of the vertical the world's up says nothing about the roll: then the picture's
   // top is -z when looking down, +z when looking up.
-  glm::dvec3 side = glm::cross(forward, glm::dvec3(0, 1, 0));
-  if (glm::dot(side, side) < 2.5e-7) side = glm::cross(forward, glm::dvec3(0, 0, forward.y < 0 ? -1 : 1));
+  if (up == glm::dvec3(0) && glm::dot(side, side) < 2.5e-7)
+    side = glm::cross(forward, glm::dvec3(0, 0, forward.y < 0 ? -1 : 1));
   glm::dvec3 right = glm::normalize(side);
   Camera camera;
   camera.position = glm::vec3(position);
@@ -60,6 +72,12 @@ Camera Camera::look_at(const glm::dvec3& position, const glm::dvec3& target, con
   camera.forward = glm::vec3(forward);
   camera.projection = projection;
   return camera;
+}
+
+Camera Camera::of_node(const glm::dmat4& world, const Projection& projection) {
+  const glm::dvec3 position(world[3]), back(world[2]);
+  const double length = glm::length(back);
+  return look_at(position, position - back / length, projection, glm::dvec3(world[1]));
 }
 
 Camera CameraPath::sample(uint32_t frame, uint32_t frames, uint32_t width, uint32_t height, float near,
@@ -72,12 +90,18 @@ Camera CameraPath::sample(uint32_t frame, uint32_t frames, uint32_t width, uint3
     float stretch = aspect * (window.top - window.bottom) / (window.right - window.left);
     window.left *= stretch;
     window.right *= stretch;
+    if (window.kind == ProjectionKind::orthographic && reach > window.near)
+      window.far = std::min(window.far, reach);
   } else {
-    window = Projection::perspective(vertical_fov, aspect, near, far);
+    const float begin = own_near > 0 ? own_near : near, end = own_far > 0 ? own_far : far;
+    // A camera whose near plane lies behind the level still has a depth range.
+    window = Projection::perspective(vertical_fov, aspect, begin, end > begin ? end : 10 * begin);
+    window.clips_far = clips_far;
   }
 
+  if (carrier) return Camera::of_node(view_of(*carrier, carrier->motions->time_of(frame, frames)), window);
   if (keys.size() == 1 || frames == 1)
-    return Camera::look_at(keys.front().position, keys.front().target, window);
+    return Camera::look_at(keys.front().position, keys.front().target, window, keys.front().up);
   if (frame + 1 == frames) return Camera::look_at(keys.back().position, keys.back().target, window);
   double time =
       keys.front().time + duration() * (static_cast<double>(frame) / static_cast<double>(frames - 1));
@@ -88,6 +112,13 @@ Camera CameraPath::sample(uint32_t frame, uint32_t frames, uint32_t width, uint3
   double u = (time - keys[i].time) / (keys[i + 1].time - keys[i].time);
   return Camera::look_at(hermite(keys, i, u, &CameraKey::position), hermite(keys, i, u, &CameraKey::target),
                          window);
+}
+
+bool CameraPath::cuts(uint32_t frame, uint32_t frames) const {
+  if (frame == 0) return true;
+  if (!carrier) return false;
+  const NodeMotions& motions = *carrier->motions;
+  return motions.jumps(carrier->node, motions.time_of(frame - 1, frames), motions.time_of(frame, frames));
 }
 
 std::vector<glm::dvec3> CameraPath::places(uint32_t frames) const {

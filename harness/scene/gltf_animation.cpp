@@ -6,126 +6,167 @@
 namespace ml::gltf {
 namespace {
 
-constexpr size_t max_keys = 100000;
+constexpr size_t max_keys = 100000;        // of a channel
+constexpr size_t max_all_keys = 10000000;  // of all channels: many may share one accessor
 
-// Spherical interpolation by halving: square roots alone, so that every machine makes the same bits (sin and
-// acos do not).
-glm::dvec4 turn(glm::dvec4 a, glm::dvec4 b, double t) {
-  if (glm::dot(a, b) < 0) b = -b;
-  double low = 0, high = 1;
-  for (int step = 0; step < 10; ++step) {
-    glm::dvec4 middle = glm::normalize(a + b);
-    double half = 0.5 * (low + high);
-    if (t < half)
-      b = middle, high = half;
-    else
-      a = middle, low = half;
+// A channel of the file that the bench can play.
+struct ChannelPlace {
+  size_t animation = 0, channel = 0;
+  MotionChannel::Target target = MotionChannel::Target::translation;
+};
+
+class MovementLoader {
+ public:
+  MovementLoader(File& file, const std::vector<PlacedNode>& nodes)
+      : file_(file), nodes_(nodes), parents_(check_tree(file)), channels_(file.model.nodes.size()) {}
+
+  Movement load() {
+    find_channels();
+    Movement movement;
+    if (!anything_moves()) return movement;
+    auto motions = std::make_shared<NodeMotions>();
+    movement.index.assign(file_.model.nodes.size(), -1);
+    for (const PlacedNode& placed : nodes_) {
+      // A camera that stands still among what moves runs by the same clock.
+      const bool camera = file_.model.nodes[placed.node].camera >= 0;
+      if (camera || (moves_[placed.node] && has_content(placed.node)))
+        add_chain(placed.node, *motions, movement.index);
+    }
+    movement.motions = std::move(motions);
+    return movement;
   }
-  return glm::normalize(a + (b - a) * ((t - low) / (high - low)));
-}
+
+ private:
+  // By node; of several animations that move a node the first one counts.
+  void find_channels() {
+    size_t weights = 0, others = 0, later = 0;
+    // From the description: tinygltf drops channels without a node (KHR_animation_pointer) in silence.
+    const Json& animations = file_.json.value("animations", Json::array());
+    for (size_t a = 0; a < animations.size(); ++a) {
+      const Json& channels = animations[a]["channels"];
+      for (size_t i = 0; i < channels.size(); ++i) {
+        const Json& target = channels[i]["target"];
+        const std::string path = target["path"];
+        ChannelPlace place{a, i};
+        if (path == "rotation") {
+          place.target = MotionChannel::Target::rotation;
+        } else if (path == "scale") {
+          place.target = MotionChannel::Target::scale;
+        } else if (path != "translation") {
+          ++(path == "weights" ? weights : others);
+          continue;
+        }
+        if (!target.contains("node")) {
+          ++others;
+          continue;
+        }
+        auto& known = channels_[target["node"].get<size_t>()];
+        if (known.empty() || known.front().animation == a)
+          known.push_back(place);
+        else
+          ++later;
+      }
+    }
+    auto note = [&](size_t count, const char* what) {
+      if (count) file_.notes.push_back(std::to_string(count) + what);
+    };
+    note(weights, " animation channels move the weights of morph targets, which is ignored");
+    note(others,
+         " animation channels move something else than a node's translation, rotation or scale, and are "
+         "ignored");
+    note(later, " animation channels move nodes that an earlier animation moves, and are not played");
+  }
+
+  bool has_content(size_t node) const {
+    const tinygltf::Node& source = file_.model.nodes[node];
+    return source.mesh >= 0 || source.camera >= 0 ||
+           file_.json["nodes"][node].contains("/extensions/KHR_lights_punctual"_json_pointer);
+  }
+
+  // Fills moves_; whether it moves anything that can be seen, seen by or that shines.
+  bool anything_moves() {
+    moves_.assign(file_.model.nodes.size(), 0);
+    bool any = false;
+    for (const PlacedNode& placed : nodes_) {
+      const int parent = parents_[placed.node];
+      moves_[placed.node] =
+          !channels_[placed.node].empty() || (parent >= 0 && moves_[static_cast<size_t>(parent)]);
+      any = any || (moves_[placed.node] && has_content(placed.node));
+    }
+    return any;
+  }
+
+  void add_chain(size_t node, NodeMotions& motions, std::vector<int>& index) {
+    std::vector<size_t> chain;  // from the node up to what is there already
+    for (int up = static_cast<int>(node); up >= 0 && index[static_cast<size_t>(up)] < 0;
+         up = parents_[static_cast<size_t>(up)])
+      chain.push_back(static_cast<size_t>(up));
+    for (auto next = chain.rbegin(); next != chain.rend(); ++next) {
+      MotionNode motion;
+      if (const int parent = parents_[*next]; parent >= 0) motion.parent = index[static_cast<size_t>(parent)];
+      for (const ChannelPlace& place : channels_[*next]) motion.channels.push_back(read_channel(place));
+      if (motion.channels.empty())
+        motion.local = local_transform(file_, *next);
+      else
+        motion.rest = local_pose(file_, *next);
+      index[*next] = static_cast<int>(motions.add(std::move(motion)));
+    }
+  }
+
+  MotionChannel read_channel(const ChannelPlace& from) {
+    const Json& animation = file_.json["animations"][from.animation];
+    const auto index = animation["channels"][from.channel]["sampler"].get<size_t>();
+    const std::string place = gltf::at("animations", from.animation);
+    if (index >= animation["samplers"].size())
+      file_.fail(place + "." + gltf::at("channels", from.channel) + ".sampler",
+                 "is " + std::to_string(index) + ", but the animation has " +
+                     std::to_string(animation["samplers"].size()) + " samplers");
+    const Json& sampler = animation["samplers"][index];
+    const std::string where = place + "." + gltf::at("samplers", index),
+                      interpolation = sampler.value("interpolation", "LINEAR");
+    MotionChannel channel;
+    channel.target = from.target;
+    channel.interpolation = interpolation == "STEP"          ? MotionChannel::Interpolation::step
+                            : interpolation == "CUBICSPLINE" ? MotionChannel::Interpolation::cubic
+                                                             : MotionChannel::Interpolation::linear;
+    channel.times = read_numbers(file_, sampler["input"].get<size_t>(), 1, where + ".input");
+    const int width = channel.target == MotionChannel::Target::rotation ? 4 : 3;
+    channel.values = read_numbers(file_, sampler["output"].get<size_t>(), width, where + ".output");
+    keys_ += channel.times.size();
+    if (channel.times.size() > max_keys || keys_ > max_all_keys)
+      file_.fail(where + ".input", "has more than " + std::to_string(max_keys) +
+                                       " keys, or all channels together more than " +
+                                       std::to_string(max_all_keys));
+    for (size_t k = 1; k < channel.times.size(); ++k)
+      if (!(channel.times[k] > channel.times[k - 1]))
+        file_.fail(where + ".input", "its times do not increase at key " + std::to_string(k));
+    const size_t per_key = channel.interpolation == MotionChannel::Interpolation::cubic ? 3 : 1;
+    const size_t wanted = channel.times.size() * per_key * static_cast<size_t>(width);
+    if (channel.times.empty() || channel.values.size() != wanted)
+      file_.fail(where + ".output",
+                 "has " + std::to_string(channel.values.size() / static_cast<size_t>(width)) +
+                     " elements, expected " + std::to_string(channel.times.size() * per_key));
+    return channel;
+  }
+
+  File& file_;
+  const std::vector<PlacedNode>& nodes_;
+  std::vector<int> parents_;
+  std::vector<std::vector<ChannelPlace>> channels_;  // by node
+  size_t keys_ = 0;                                  // read so far
+  std::vector<char> moves_;                          // by node: it, or one above it
+};
 
 }  // namespace
 
-NodeMotion::NodeMotion(File& file, size_t node) {
-  local_ = local_transform(file, node);
-  const auto& animations = file.model.animations;
-  for (size_t a = 0; a < animations.size() && channels_.empty(); ++a) {
-    for (size_t i = 0; i < animations[a].channels.size(); ++i) {
-      const tinygltf::AnimationChannel& source = animations[a].channels[i];
-      if (source.target_node != static_cast<int>(node)) continue;
-      std::string place = gltf::at("animations", a) + "." + gltf::at("channels", i);
-      Channel channel{};
-      if (source.target_path == "translation")
-        channel.path = Channel::Path::translation;
-      else if (source.target_path == "rotation")
-        channel.path = Channel::Path::rotation;
-      else if (source.target_path == "scale")
-        channel.path = Channel::Path::scale;
-      else
-        continue;
-      if (source.sampler < 0 || static_cast<size_t>(source.sampler) >= animations[a].samplers.size())
-        file.fail(place + ".sampler", "is " + std::to_string(source.sampler) + ", but the animation has " +
-                                          std::to_string(animations[a].samplers.size()) + " samplers");
-      const auto& sampler = animations[a].samplers[static_cast<size_t>(source.sampler)];
-      std::string where =
-          gltf::at("animations", a) + "." + gltf::at("samplers", static_cast<size_t>(source.sampler));
-      channel.interpolation = sampler.interpolation == "STEP"          ? Channel::Interpolation::step
-                              : sampler.interpolation == "CUBICSPLINE" ? Channel::Interpolation::cubic
-                                                                       : Channel::Interpolation::linear;
-      channel.times = read_numbers(file, static_cast<size_t>(sampler.input), 1, where + ".input");
-      int width = channel.path == Channel::Path::rotation ? 4 : 3;
-      channel.values = read_numbers(file, static_cast<size_t>(sampler.output), width, where + ".output");
-      if (channel.times.size() > max_keys)
-        file.fail(where + ".input", "has more than " + std::to_string(max_keys) + " keys");
-      for (size_t k = 1; k < channel.times.size(); ++k)
-        if (!(channel.times[k] > channel.times[k - 1]))
-          file.fail(where + ".input", "its times do not increase at key " + std::to_string(k));
-      size_t per_key = channel.interpolation == Channel::Interpolation::cubic ? 3 : 1;
-      size_t wanted = channel.times.size() * per_key * static_cast<size_t>(width);
-      if (channel.values.size() != wanted)
-        file.fail(where + ".output",
-                  "has " + std::to_string(channel.values.size() / static_cast<size_t>(width)) +
-                      " elements, expected " + std::to_string(channel.times.size() * per_key));
-      channels_.push_back(std::move(channel));
-    }
-  }
-  if (moves()) rest_ = local_pose(file, node);
-}
-
-void NodeMotion::add_times(std::vector<double>& times, bool& curved) const {
-  for (const Channel& channel : channels_) {
-    times.insert(times.end(), channel.times.begin(), channel.times.end());
-    curved = curved || channel.interpolation == Channel::Interpolation::cubic;
-  }
-}
-
-glm::dvec4 NodeMotion::value(const Channel& channel, double time) const {
-  bool rotation = channel.path == Channel::Path::rotation,
-       cubic = channel.interpolation == Channel::Interpolation::cubic;
-  size_t width = rotation ? 4 : 3;
-  // Part 0 of a cubic key is its in-tangent, 1 its value, 2 its out-tangent.
-  auto element = [&](size_t key, size_t part) {
-    glm::dvec4 result(0);
-    for (size_t c = 0; c < width; ++c)
-      result[static_cast<int>(c)] = channel.values[(cubic ? 3 * key + part : key) * width + c];
-    return result;
-  };
-  auto direction = [&](const glm::dvec4& v) {
-    double length = glm::length(v);
-    return length > 1e-150 && std::isfinite(length) ? v / length : glm::dvec4(0, 0, 0, 1);
-  };
-  const auto& times = channel.times;
-  auto after = std::upper_bound(times.begin(), times.end(), time);
-  size_t next = static_cast<size_t>(after - times.begin());
-  glm::dvec4 result;
-  if (next == 0 || next == times.size() || channel.interpolation == Channel::Interpolation::step) {
-    result = element(next == 0 ? 0 : next - 1, 1);
-  } else {
-    size_t key = next - 1;
-    double span = times[next] - times[key], t = (time - times[key]) / span;
-    if (cubic) {
-      double t2 = t * t, t3 = t2 * t;
-      result = (2 * t3 - 3 * t2 + 1) * element(key, 1) + span * (t3 - 2 * t2 + t) * element(key, 2) +
-               (3 * t2 - 2 * t3) * element(next, 1) + span * (t3 - t2) * element(next, 0);
-    } else if (rotation) {
-      result = turn(direction(element(key, 1)), direction(element(next, 1)), t);
-    } else {
-      result = element(key, 1) + t * (element(next, 1) - element(key, 1));
-    }
-  }
-  return rotation ? direction(result) : result;
-}
-
-glm::dmat4 NodeMotion::at(double time) const {
-  if (!moves()) return local_;
-  Pose pose = rest_;
-  for (const Channel& channel : channels_) {
-    glm::dvec4 now = value(channel, time);
-    if (channel.path == Channel::Path::translation) pose.translation = glm::dvec3(now);
-    if (channel.path == Channel::Path::rotation) pose.rotation = now;
-    if (channel.path == Channel::Path::scale) pose.scale = glm::dvec3(now);
-  }
-  return matrix_of(pose);
+Movement load_movement(File& file, std::vector<PlacedNode>& nodes) {
+  Movement movement = MovementLoader(file, nodes).load();
+  if (!movement.motions) return movement;
+  for (PlacedNode& placed : nodes)
+    if (const int index = movement.of(placed.node);
+        index >= 0 && movement.motions->moves(static_cast<size_t>(index)))
+      placed.world = movement.motions->world(static_cast<size_t>(index), movement.motions->begin());
+  return movement;
 }
 
 }  // namespace ml::gltf

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -7,35 +9,47 @@
 namespace ml::gltf {
 namespace {
 
-constexpr double key_turn =
-    0.0875;  // 5 degrees, as the chord of the unit circle: the most between two keys of a path
-constexpr double key_interval =
-    0.1;  // s: the most between two keys, so that the spline follows straight lines
-constexpr int most_per_interval = 64;
-constexpr size_t max_path_keys = 200000;
+constexpr double min_near = 1e-6, max_near = 1e6;  // m
+constexpr float max_scene_near = 100;              // m, for views that are not a camera of the file
+const auto window_key = "/extras/manylights/window"_json_pointer;
+constexpr size_t max_name = 100;            // bytes, as many as a configuration's camera.path may have
+constexpr uint32_t times_between_keys = 7;  // at which a moving camera's reach is measured
+// Widens the farthest corner's distance, so that rounding never cuts it off.
+constexpr double reach_margin = 1.001;
 
-struct View {
-  glm::dvec3 position, forward;
-  bool rolled;
-};
+// What a configuration can hold: no control characters, at most max_name bytes, whole UTF-8 letters.
+std::string typeable(const std::string& name) {
+  std::string result = name;
+  if (result.size() > max_name) {
+    size_t end = max_name;
+    while (end > 0 && (static_cast<unsigned char>(result[end]) & 0xc0) == 0x80) --end;
+    result.resize(end);
+  }
+  for (char& c : result)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
+  return result;
+}
 
 class CameraLoader {
  public:
-  CameraLoader(File& file, const glm::dvec3& center, Scene& scene)
-      : file_(file), parents_(check_tree(file)), center_(center), scene_(scene) {}
+  CameraLoader(File& file, const Movement& movement, const glm::dvec3& center, Scene& scene)
+      : file_(file), movement_(movement), center_(center), scene_(scene) {}
 
-  void add(size_t node) {
-    std::vector<NodeMotion> chain;  // from the camera up to the root
-    for (int up = static_cast<int>(node); up >= 0; up = parents_[static_cast<size_t>(up)])
-      chain.emplace_back(file_, static_cast<size_t>(up));
+  void add(const PlacedNode& placed) {
     CameraPath path;
-    path.name = name_of(node);
-    path.keys = keys_of(node, chain);
-    set_lens(path, static_cast<size_t>(file_.model.nodes[node].camera));
+    path.name = name_of(placed.node);
+    const double reach = set_views(path, placed);
+    path.reach = static_cast<float>(reach * reach_margin);
+    set_lens(path, static_cast<size_t>(file_.model.nodes[placed.node].camera));
     scene_.paths.push_back(std::move(path));
   }
 
   void finish() {
+    if (untypeable_)
+      file_.notes.push_back(fmt::format(
+          "{} cameras have names with control characters or more than {} bytes: they are called by what of "
+          "them can be typed, with '_' for the rest",
+          untypeable_, max_name));
     if (scene_.paths.empty()) return;
     std::set<std::string> names;
     for (CameraPath& path : scene_.paths) {
@@ -49,100 +63,128 @@ class CameraLoader {
       scene_.paths.insert(scene_.paths.begin(), scene_.paths[0]);
       scene_.paths[0].name = "default";
     }
-    if (rolled_)
-      file_.notes.push_back(std::to_string(rolled_) +
-                            " cameras are rolled about their axis, which is ignored");
   }
 
  private:
-  std::string name_of(size_t node) const {
+  std::string name_of(size_t node) {
     const tinygltf::Node& source = file_.model.nodes[node];
-    if (!source.name.empty()) return source.name;
-    const std::string& name = file_.model.cameras[static_cast<size_t>(source.camera)].name;
-    return name.empty() ? "camera-" + std::to_string(scene_.paths.size()) : name;
+    const std::string& own =
+        source.name.empty() ? file_.model.cameras[static_cast<size_t>(source.camera)].name : source.name;
+    if (own.empty()) return "camera-" + std::to_string(scene_.paths.size());
+    std::string name = typeable(own);
+    untypeable_ += name != own;
+    return name;
   }
 
-  View view_at(size_t node, const std::vector<NodeMotion>& chain, double time) const {
-    glm::dmat4 world(1);
-    for (const NodeMotion& motion : chain) world = motion.at(time) * world;
-    glm::dvec3 back(world[2]), side(world[0]), position(world[3]);
-    double length = glm::length(back), side_length = glm::length(side);
+  void check_view(size_t node, const glm::dmat4& world) const {
+    const glm::dvec3 back(world[2]), top(world[1]), position(world[3]);
+    const double length = glm::length(back), top_length = glm::length(top);
     bool usable =
-        std::isfinite(length) && length > 1e-150 && std::isfinite(side_length) && side_length > 1e-150;
+        std::isfinite(length) && length > 1e-150 && std::isfinite(top_length) && top_length > 1e-150;
     for (int c = 0; c < 3; ++c) usable = usable && std::abs(position[c]) <= max_coordinate;
     if (!usable) file_.fail(at("nodes", node), "its camera has no finite position and direction");
-    View view{position - center_, -back / length, false};
-    // A level camera's right is horizontal, unless it looks straight up or down.
-    view.rolled = std::abs(side.y / side_length) > 1e-3 && std::abs(view.forward.y) < 0.9999;
-    return view;
   }
 
-  std::vector<CameraKey> keys_of(size_t node, const std::vector<NodeMotion>& chain) {
-    std::vector<double> times;
-    bool curved = false;
-    for (const NodeMotion& motion : chain) motion.add_times(times, curved);
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
-    if (times.empty()) times.push_back(0);
+  CameraKey key_of(const glm::dmat4& world, double time) const {
+    const glm::dvec3 position = glm::dvec3(world[3]) - center_;
+    return {time, position, position - glm::normalize(glm::dvec3(world[2])),
+            glm::normalize(glm::dvec3(world[1]))};
+  }
 
-    std::vector<CameraKey> keys;
-    bool rolled = false;
-    auto add_key = [&](double time) {
-      View view = view_at(node, chain, time);
-      rolled = rolled || view.rolled;
-      keys.push_back({time, view.position, view.position + view.forward});
-      if (keys.size() > max_path_keys)
-        file_.fail(at("nodes", node), "its camera moves through more than 200000 keys");
-    };
-    for (size_t i = 0; i < times.size(); ++i) {
-      if (i > 0) {
-        double begin = times[i - 1], span = times[i] - begin;
-        double chord =
-            glm::length(view_at(node, chain, begin).forward - view_at(node, chain, times[i]).forward);
-        double parts = std::max(
-            {std::ceil(chord / key_turn), std::ceil(span / key_interval - 1e-3), curved ? 8.0 : 1.0});
-        int count = static_cast<int>(std::min(parts, double{most_per_interval}));
-        for (int k = 1; k < count; ++k)
-          if (double time = begin + span * k / count; time > keys.back().time && time < times[i])
-            add_key(time);
-      }
-      add_key(times[i]);
+  // m, from the camera to the farthest corner of the level's bounds.
+  double reach_from(const glm::dmat4& world) const {
+    const glm::dvec3 eye = glm::dvec3(world[3]) - center_;
+    const glm::dvec3 low(scene_.bounds.min), high(scene_.bounds.max);
+    return glm::length(glm::max(glm::abs(low - eye), glm::abs(high - eye)));
+  }
+
+  // The path's views; returns the farthest that it reaches.
+  double set_views(CameraPath& path, const PlacedNode& placed) const {
+    const int index = movement_.of(placed.node);
+    if (index < 0) {
+      check_view(placed.node, placed.world);
+      path.keys.push_back(key_of(placed.world, 0));
+      return reach_from(placed.world);
     }
-    rolled_ += rolled;
-    return keys;
+    const NodeMotions& motions = *movement_.motions;
+    const auto carrier = static_cast<size_t>(index);
+    double reach = 0;
+    for (double time : sample_times(motions, carrier, times_between_keys)) {
+      const glm::dmat4 world = motions.world(carrier, time);
+      check_view(placed.node, world);
+      reach = std::max(reach, reach_from(world));
+    }
+    path.carrier = CameraNode{movement_.motions, carrier, center_};
+    for (double time : {motions.begin(), motions.end()})
+      if (path.keys.empty() || time > path.keys.back().time)
+        path.keys.push_back(key_of(motions.world(carrier, time), time));
+    return reach;
+  }
+
+  void note(const CameraPath& path, const std::string& what) {
+    file_.notes.push_back(fmt::format("camera '{}': {}", path.name, what));
+  }
+
+  // A near plane that the bench can work with, m.
+  double near_of(const CameraPath& path, double given, double least) {
+    const double near = std::clamp(given, least, max_near);
+    if (near != given && given > 0)
+      note(path, fmt::format("its znear of {:g} m is out of range, {:g} m is taken", given, near));
+    return near;
   }
 
   void set_lens(CameraPath& path, size_t index) {
     const tinygltf::Camera& camera = file_.model.cameras[index];
     const Json& json = file_.json["cameras"][index];
-    std::string place = at("cameras", index);
-    double near = 0;
-    if (camera.type == "perspective") {
-      path.vertical_fov = static_cast<float>(camera.perspective.yfov);
-      near = camera.perspective.znear;
-    } else {
-      const auto& lens = camera.orthographic;
-      auto width = static_cast<float>(std::abs(lens.xmag)), height = static_cast<float>(std::abs(lens.ymag));
-      if (!(width > 0 && height > 0 && width <= 1e9f && height <= 1e9f))
-        file_.fail(place + ".orthographic", "expected an xmag and ymag that are not 0");
-      path.has_projection = true;
-      path.projection.kind = ProjectionKind::orthographic;
-      path.projection.left = -width, path.projection.right = width;
-      path.projection.bottom = -height, path.projection.top = height;
-      near = std::max(lens.znear, 0.001);  // the bench's near plane lies in front of the camera
-      if (!(lens.zfar > near && lens.zfar <= max_coordinate))
-        file_.fail(place + ".orthographic.zfar", "expected more than znear");
-      path.projection.near = static_cast<float>(near);
-      path.projection.far =
-          std::max(static_cast<float>(lens.zfar), std::nextafter(path.projection.near, 1e10f));
-    }
+    const std::string place = at("cameras", index);
+    if (camera.type == "perspective")
+      set_perspective(path, camera.perspective,
+                      json["perspective"].contains("zfar") && !json.contains(window_key));
+    else
+      set_orthographic(path, camera.orthographic, place);
     read_window(path, json, place);
-    if (scene_.paths.empty() && near >= 1e-4 && near <= 100) scene_.near = static_cast<float>(near);
+    if (scene_.paths.empty())
+      scene_.near = std::min(path.has_projection ? path.projection.near : path.own_near, max_scene_near);
   }
 
-  // An asymmetric window, as the bench's exporter keeps it beside the symmetric one that glTF knows.
+  void set_perspective(CameraPath& path, const tinygltf::PerspectiveCamera& lens, bool has_far) {
+    path.vertical_fov = static_cast<float>(lens.yfov);
+    path.own_near = static_cast<float>(near_of(path, lens.znear, min_near));
+    if (!has_far || lens.zfar >= double{path.reach}) return;  // nothing lies beyond
+    if (!(lens.zfar > double{path.own_near})) {
+      note(path, fmt::format("its zfar of {:g} m is not beyond its znear of {:g} m, and cuts nothing",
+                             lens.zfar, path.own_near));
+      return;
+    }
+    path.own_far = static_cast<float>(lens.zfar);
+    path.clips_far = path.own_far > path.own_near;
+    if (path.clips_far)
+      note(path, fmt::format("what is farther than its zfar of {:g} m is not seen", lens.zfar));
+  }
+
+  void set_orthographic(CameraPath& path, const tinygltf::OrthographicCamera& lens,
+                        const std::string& place) {
+    auto width = static_cast<float>(std::abs(lens.xmag)), height = static_cast<float>(std::abs(lens.ymag));
+    if (!(width > 0 && height > 0 && width <= 1e9f && height <= 1e9f))
+      file_.fail(place + ".orthographic", "expected an xmag and ymag that are not 0");
+    path.has_projection = true;
+    path.projection.kind = ProjectionKind::orthographic;
+    path.projection.left = -width, path.projection.right = width;
+    path.projection.bottom = -height, path.projection.top = height;
+    // The bench's near plane lies in front of the camera: a millimetre, or less in a level of millimetres.
+    const double least = std::clamp(1e-4 * double{path.reach}, min_near, 0.001);
+    const double near = near_of(path, lens.znear, least);
+    if (!(lens.zfar > near)) file_.fail(place + ".orthographic.zfar", "expected more than znear");
+    path.projection.near = static_cast<float>(near);
+    path.projection.far = std::max(static_cast<float>(std::min(lens.zfar, max_coordinate)),
+                                   std::nextafter(path.projection.near, 1e10f));
+  }
+
+  // An asymmetric window, as the bench's exporter keeps it beside the symmetric one that glTF knows. Its far
+  // bounds the grids of algorithms and clips nothing: the exporter writes the projection of a procedural
+  // path.
   void read_window(CameraPath& path, const Json& camera, const std::string& place) {
-    Json window = camera.value("/extras/manylights/window"_json_pointer, Json());
+    Json window = camera.value(window_key, Json());
     if (window.is_null()) return;
     Projection& projection = path.projection;
     float* sides[] = {&projection.left, &projection.right, &projection.bottom, &projection.top};
@@ -151,28 +193,28 @@ class CameraLoader {
     for (float* side : sides) usable = usable && std::abs(*side) <= 1e9f;
     if (!usable) file_.fail(place + ".extras.manylights.window", "expected left < right and bottom < top");
     if (camera["type"] == "perspective") {
-      path.projection.near =
-          static_cast<float>(std::clamp(camera["perspective"]["znear"].get<double>(), 1e-6, 1e6));
-      path.projection.far =
-          static_cast<float>(std::clamp(camera["perspective"].value("zfar", 1000.0), 1e-6, max_coordinate));
+      path.projection.near = path.own_near;
+      path.projection.far = static_cast<float>(
+          std::clamp(camera["perspective"].value("zfar", 1000.0), min_near, max_coordinate));
       if (!(path.projection.far > path.projection.near)) path.projection.far = 2 * path.projection.near;
     }
     path.has_projection = true;
   }
 
   File& file_;
-  std::vector<int> parents_;
+  const Movement& movement_;
   glm::dvec3 center_;
   Scene& scene_;
-  size_t rolled_ = 0;
+  size_t untypeable_ = 0;
 };
 
 }  // namespace
 
-void load_cameras(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3& center, Scene& scene) {
-  CameraLoader loader(file, center, scene);
+void load_cameras(File& file, const std::vector<PlacedNode>& nodes, const Movement& movement,
+                  const glm::dvec3& center, Scene& scene) {
+  CameraLoader loader(file, movement, center, scene);
   for (const PlacedNode& placed : nodes)
-    if (file.model.nodes[placed.node].camera >= 0) loader.add(placed.node);
+    if (file.model.nodes[placed.node].camera >= 0) loader.add(placed);
   loader.finish();
 }
 

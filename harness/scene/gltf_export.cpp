@@ -205,13 +205,18 @@ class Exporter {
                                 {"zfar", window.far}};
     } else {
       camera["type"] = "perspective";
-      camera["perspective"] = {{"yfov", path.vertical_fov},
-                               {"znear", path.has_projection ? window.near : scene_.near}};
-      if (path.has_projection) camera["perspective"]["zfar"] = window.far;
+      camera["perspective"] = {{"yfov", path.vertical_fov}, {"znear", near_of(path)}};
+      if (path.has_projection || path.clips_far)
+        camera["perspective"]["zfar"] = path.has_projection ? window.far : path.own_far;
     }
     if (path.has_projection && !(orthographic && symmetric))
       camera["extras"]["manylights"]["window"] = {window.left, window.right, window.bottom, window.top};
     return camera;
+  }
+
+  float near_of(const CameraPath& path) const {
+    if (path.has_projection) return path.projection.near;
+    return path.own_near > 0 ? path.own_near : scene_.near;
   }
 
   void add_lights() {

@@ -49,18 +49,26 @@ Scene build(File& file, gltf::Bytes bytes, int scene_index, uint32_t seed, const
       file.fail("asset.extras.manylights.origin", "expected at most 4e9 m");
   }
 
+  const gltf::Movement movement = gltf::load_movement(file, nodes);
+
   Scene scene;
+  scene.motions = movement.motions;
   scene.name = own.value("name", std::filesystem::path(file.name).stem().string());
   gltf::load_materials(file, scene);
   glm::dvec3 center = gltf::load_meshes(file, nodes, own.contains("origin") ? &zero : nullptr, scene);
+  scene.motion_center = center;
   scene.origin = offset + center + written_origin;
-  gltf::load_lights(file, nodes, center, scene);
-  gltf::load_cameras(file, nodes, center, scene);
+  gltf::load_lights(file, nodes, movement, center, scene);
+  gltf::load_cameras(file, nodes, movement, center, scene);
   if (own.contains("near")) scene.near = own["near"].get<float>();
   scene.far = own.contains("far") ? own["far"].get<float>() : static_cast<float>(distance_range(scene));
   if (!(scene.near > 0 && scene.far > scene.near))
     file.fail("asset.extras.manylights", "expected 0 < near < far");
   if (scene.paths.empty()) {
+    // Nobody says where the near plane is: in a level of centimetres a tenth of a metre is beyond it.
+    if (!own.contains("near") && !scene.indices.empty())
+      scene.near = std::clamp(static_cast<float>(0.01 * glm::length(glm::dvec3(scene.bounds.size()))), 1e-6f,
+                              scene.near);
     scene.paths.push_back(automatic_path(scene, seed));
     scene.paths[0].name = "default";
   }

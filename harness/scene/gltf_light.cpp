@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +11,11 @@ namespace ml::gltf {
 namespace {
 
 // A light without a range reaches, in glTF, infinitely far. It gets the distance at which its irradiance I /
-// r^2 has fallen to this, which is 1 % of what 1 W/sr gives at 1 m; at most the level's diagonal.
+// r^2 has fallen to this, which is 1 % of what 1 W/sr gives at 1 m. Not less where the level is small: the
+// window would darken what lies well inside it.
 constexpr double least_irradiance = 0.01;  // W/m^2
+// m: a range beyond this reaches past any level, and stands for "infinite" (exporters write 3.4e38).
+constexpr double max_range = max_coordinate;
 
 LightShape shape_of(const std::string& type, const std::string& own) {
   if (own == "capsule") return LightShape::capsule;
@@ -19,40 +24,12 @@ LightShape shape_of(const std::string& type, const std::string& own) {
   return type == "spot" ? LightShape::spot : LightShape::omni;
 }
 
-// The node's -z is the direction and its x the side. Scale and reflection leave the shape alone; where a
-// sheared node's axes are not at right angles, the direction stays and the side gives way.
-void set_axes(const File& file, const PlacedNode& placed, Light& light) {
-  auto unit = [&](const glm::dvec3& axis) {
-    double length = glm::length(axis);
-    if (!(length > 1e-150 && std::isfinite(length)))
-      file.fail(at("nodes", placed.node), "a " + light_shape_names()[static_cast<size_t>(light.shape)] +
-                                              " light needs a direction, but the scale is 0");
-    return axis / length;
-  };
-  const bool has_direction = has_cone(light.shape) || light.shape == LightShape::box;
-  const bool has_side = has_segment(light.shape) || light.shape == LightShape::box;
-  glm::dvec3 direction(0);
-  if (has_direction) {
-    direction = unit(-glm::dvec3(placed.world[2]));
-    light.direction = glm::vec3(direction);
-  }
-  if (has_side) {
-    glm::dvec3 side = unit(glm::dvec3(placed.world[0]));
-    light.side = glm::vec3(unit(side - glm::dot(side, direction) * direction));
-  }
-}
-
 // glTF's candela and lux are taken as W/sr and W/m^2, one for one: the bench's pictures have no photometric
 // scale.
-Light light_of(const File& file, size_t index, const PlacedNode& placed, const glm::dvec3& center,
-               double diagonal, size_t& without_range) {
+Light light_of(const File& file, size_t index, size_t& without_range) {
   const tinygltf::Light& source = file.model.lights[index];
   const Json& json = file.json["extensions"]["KHR_lights_punctual"]["lights"][index];
   Light light;
-  light.position = glm::dvec3(placed.world[3]) - center;
-  for (int c = 0; c < 3; ++c)
-    if (!(std::abs(placed.world[3][c]) <= max_coordinate))
-      file.fail(at("nodes", placed.node), "its light lies more than 1e9 m from the origin");
   double peak = 0;
   for (int c = 0; c < 3; ++c) {
     double color = source.color.size() == 3 ? source.color[static_cast<size_t>(c)] : 1;
@@ -65,13 +42,12 @@ Light light_of(const File& file, size_t index, const PlacedNode& placed, const g
   if (light.shape == LightShape::box) {
     make_box(light, {own["half_extents"][0].get<float>(), own["half_extents"][1].get<float>(),
                      own["half_extents"][2].get<float>()});
-  } else if (json.contains("range")) {
+  } else if (json.contains("range") && source.range <= max_range) {
     light.radius = static_cast<float>(source.range);
   } else {
     ++without_range;
-    light.radius = static_cast<float>(std::min(std::sqrt(peak / least_irradiance), diagonal));
+    light.radius = static_cast<float>(std::min(std::sqrt(peak / least_irradiance), max_range));
   }
-  set_axes(file, placed, light);
   if (has_segment(light.shape)) light.half_length = own["half_length"].get<float>();
   if (!has_cone(light.shape)) return light;
   light.inner_angle = static_cast<float>(source.spot.innerConeAngle);
@@ -99,25 +75,53 @@ void load_side_file(const File& file, const std::string& name, Scene& scene) {
 
 }  // namespace
 
-void load_lights(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3& center, Scene& scene) {
-  size_t directional = 0, without_range = 0;
-  double diagonal = glm::length(glm::dvec3(scene.bounds.size()));
+void load_lights(File& file, const std::vector<PlacedNode>& nodes, const Movement& movement,
+                 const glm::dvec3& center, Scene& scene) {
+  size_t without_range = 0;
+  uint32_t directional = 0, without_scale = 0;
   const auto punctual = "/extensions/KHR_lights_punctual/light"_json_pointer;
   for (const PlacedNode& placed : nodes) {
     const Json& node = file.json["nodes"][placed.node];
     if (!node.contains(punctual)) continue;
     auto index = node[punctual].get<size_t>();
-    if (file.model.lights[index].type == "directional")
+    if (file.model.lights[index].type == "directional") {
       ++directional;
-    else
-      scene.lights.push_back(light_of(file, index, placed, center, diagonal, without_range));
+      continue;
+    }
+    for (int c = 0; c < 3; ++c)
+      if (!(std::abs(placed.world[3][c]) <= max_coordinate))
+        file.fail(at("nodes", placed.node), "its light lies more than 1e9 m from the origin");
+    Light light = light_of(file, index, without_range);
+    glm::dmat4 world = placed.world;
+    world[3] -= glm::dvec4(center, 0);
+    const int mover = movement.moving(placed.node);
+    // A light whose node is animated may have a place later.
+    if (!place_on_node(light, world)) {
+      if (mover < 0) {
+        ++without_scale;
+        continue;
+      }
+      light.position = glm::dvec3(world[3]);
+    }
+    if (mover >= 0) {
+      scene.light_nodes.resize(scene.lights.size(), -1);
+      scene.light_nodes.push_back(mover);
+    }
+    scene.lights.push_back(light);
   }
-  if (directional) file.notes.push_back(std::to_string(directional) + " directional lights are ignored");
+  if (directional) {
+    scene.rejected_lights["directional (a sun)"] = directional;
+    file.notes.push_back(fmt::format(
+        "{} directional light{} (a sun) {} not used: the bench's lights have a place and a radius",
+        directional, directional == 1 ? "" : "s", directional == 1 ? "is" : "are"));
+  }
+  if (without_scale) scene.rejected_lights["its node has scale 0"] = without_scale;
   if (without_range)
     file.notes.push_back(std::to_string(without_range) +
                          " lights have no range, and end where they give 0.01 W/m^2");
   if (std::string name = file.json.value("/asset/extras/manylights/lights"_json_pointer, ""); !name.empty())
     load_side_file(file, name, scene);
+  if (!scene.light_nodes.empty()) scene.light_nodes.resize(scene.lights.size(), -1);
 }
 
 }  // namespace ml::gltf

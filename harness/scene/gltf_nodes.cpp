@@ -31,16 +31,6 @@ Pose local_pose(const File& file, size_t index) {
   return pose;
 }
 
-glm::dmat4 matrix_of(const Pose& pose) {
-  double x = pose.rotation.x, y = pose.rotation.y, z = pose.rotation.z, w = pose.rotation.w;
-  glm::dmat4 m(1);
-  m[0] = glm::dvec4(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0) * pose.scale.x;
-  m[1] = glm::dvec4(2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0) * pose.scale.y;
-  m[2] = glm::dvec4(2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0) * pose.scale.z;
-  m[3] = glm::dvec4(pose.translation, 1);
-  return m;
-}
-
 glm::dmat4 local_transform(const File& file, size_t index) {
   const tinygltf::Node& node = file.model.nodes[index];
   if (node.matrix.size() != 16) return matrix_of(local_pose(file, index));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "harness/scene/gltf_file.h"
@@ -11,11 +12,6 @@
 namespace ml::gltf {
 
 // gltf_nodes.cpp
-struct Pose {
-  glm::dvec3 translation{0};
-  glm::dvec4 rotation{0, 0, 0, 1};  // unit quaternion x, y, z, w
-  glm::dvec3 scale{1};
-};
 struct PlacedNode {
   size_t node = 0;
   glm::dmat4 world{1};
@@ -28,7 +24,21 @@ std::vector<PlacedNode> place_nodes(const File& file, int scene_index);
 // A node's own transform; for one that is given as a matrix `pose` stays empty.
 glm::dmat4 local_transform(const File& file, size_t node);
 Pose local_pose(const File& file, size_t node);
-glm::dmat4 matrix_of(const Pose& pose);
+
+// gltf_animation.cpp. The nodes that move, and which of the file's nodes each is.
+struct Movement {
+  std::shared_ptr<const NodeMotions> motions;  // null where nothing moves
+  std::vector<int> index;                      // into motions, by node of the file; -1: it is not there
+
+  int of(size_t node) const { return motions ? index[node] : -1; }
+  // The same, but -1 too where the node is there and stands still.
+  int moving(size_t node) const {
+    return of(node) >= 0 && motions->moves(static_cast<size_t>(of(node))) ? of(node) : -1;
+  }
+};
+// The motion of all cameras, lights and meshes that move or stand below what moves, and of still cameras
+// beside them; proves that times increase. Moves `nodes` to where they are when it begins.
+Movement load_movement(File& file, std::vector<PlacedNode>& nodes);
 
 // gltf_mesh.cpp. Fills vertices, indices, draws and bounds, and subtracts the whole metres nearest to the
 // middle of the bounds (or `center`, where one is given). Returns what was subtracted.
@@ -55,35 +65,13 @@ TextureMapping texture_mapping(const File& file, int material);
 // side), direction). The node's -z is the direction, its x the side; `range` is the window's radius (boxes
 // have theirs from the extents). "probe" true makes it a probe light, of any shape. Other programs see points
 // and spots.
-void load_lights(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3& center, Scene& scene);
+void load_lights(File& file, const std::vector<PlacedNode>& nodes, const Movement& movement,
+                 const glm::dvec3& center, Scene& scene);
 
 // gltf_camera.cpp. One path per camera, relative to `center`; sets scene.near from the first. No path when
-// there is no camera.
-void load_cameras(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3& center, Scene& scene);
-
-// gltf_animation.cpp. How one node moves.
-class NodeMotion {
- public:
-  // The channels of the first animation that moves `node`; proves that its times increase.
-  NodeMotion(File& file, size_t node);
-  bool moves() const { return !channels_.empty(); }
-  glm::dmat4 at(double time) const;
-  // Adds the times of all keys; `curved` is set when an interval is not a straight line or an arc.
-  void add_times(std::vector<double>& times, bool& curved) const;
-
- private:
-  struct Channel {
-    enum class Path { translation, rotation, scale } path;
-    enum class Interpolation { linear, step, cubic } interpolation;
-    std::vector<double> times;
-    std::vector<double> values;
-  };
-  glm::dvec4 value(const Channel& channel, double time) const;
-
-  Pose rest_;
-  glm::dmat4 local_{1};
-  std::vector<Channel> channels_;
-};
+// there is no camera. After the meshes: what a camera reaches is measured at the level's bounds.
+void load_cameras(File& file, const std::vector<PlacedNode>& nodes, const Movement& movement,
+                  const glm::dvec3& center, Scene& scene);
 
 // gltf_material.cpp. Refuses images that no honest file holds, before memory is asked for; `pixels_left` is
 // what may still be decoded.

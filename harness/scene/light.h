@@ -59,6 +59,12 @@ inline bool has_segment(LightShape shape) {
 // A box of these half extents (m), with the radius that belongs to them.
 void make_box(Light& light, const glm::vec3& half_extents);
 
+// Puts the light where a node of a level stands, with its directions: the node's -z is the direction, its x
+// the side. Scale and reflection leave the shape alone; where a sheared node's axes are not at right angles,
+// the direction stays and the side gives way. False, and the light as it was, where the node's scale is 0 and
+// it has no place or no directions. `world` in metres, relative to the scene's origin.
+bool place_on_node(Light& light, const glm::dmat4& world);
+
 // The light `factor` times as large: radius, and half length or half extents where there are any.
 void scale_size(Light& light, double factor);
 

@@ -133,22 +133,26 @@ LightSet::LightSet(const LightSpec& spec, const Scene& scene) : spec_(adapted(sp
   account_.used = static_cast<uint32_t>(lights_.size());
 }
 
-void LightSet::accept(const Light& light) {
+bool LightSet::accept(const Light& light) {
   if (light.intensity == glm::vec3(0)) {
     ++account_.dark;
   } else if (const char* reason = rejection_reason(light)) {
     ++account_.rejections[reason];
   } else {
     lights_.push_back(light);
+    return true;
   }
+  return false;
 }
 
 void LightSet::take_file_lights(const Scene& scene) {
   if (scene.lights.empty()) {
     std::string why;
-    for (const auto& [reason, count] : scene.rejected_lights) why += fmt::format(", {}: {}", reason, count);
-    throw UsageError(one_line(
-        fmt::format("scene '{}': it has no lights of its own for placement 'gltf'{}", scene.name, why)));
+    for (const auto& [reason, count] : scene.rejected_lights)
+      why += fmt::format("{}{} {}", why.empty() ? ": " : ", ", count, reason);
+    throw UsageError(
+        one_line(fmt::format("scene '{}': it has no lights of its own {}placement 'gltf'{}{}", scene.name,
+                             why.empty() ? "for " : "that ", why.empty() ? "" : " can use", why)));
   }
   const auto limit = spec_.auto_count ? kMaxLights : spec_.count;
   const size_t count = std::min<size_t>(limit, scene.lights.size());
@@ -163,7 +167,12 @@ void LightSet::take_file_lights(const Scene& scene) {
     Light light = scene.lights[i];
     if (spec_.radius > 0) override_radius(spec_.radius, light);
     light.intensity *= spec_.intensity;
-    accept(light);
+    const bool used = accept(light);
+    if (used && !scene.light_nodes.empty()) nodes_.push_back(scene.light_nodes[i]);
+  }
+  if (std::any_of(nodes_.begin(), nodes_.end(), [](int node) { return node >= 0; })) {
+    motions_ = scene.motions;
+    center_ = scene.motion_center;
   }
 }
 
@@ -208,7 +217,27 @@ void LightSet::place_lights(const Scene& scene) {
 
 void LightSet::at(uint32_t frame, uint32_t frames, double duration, std::vector<Light>& out,
                   std::vector<uint32_t>* identity) const {
-  run_script(spec_.script, spec_.seed, script_time(frame, frames, duration), lights_, out, identity);
+  const double time = script_time(frame, frames, duration);
+  if (!motions_) return run_script(spec_.script, spec_.seed, time, lights_, out, identity);
+  std::vector<Light> moved;
+  std::vector<uint32_t> numbers;  // in lights_
+  move_lights(motions_->time_of(frame, frames), moved, numbers);
+  run_script(spec_.script, spec_.seed, time, moved, out, identity);
+  if (!identity) return;
+  for (uint32_t& number : *identity) number = numbers[number];
+}
+
+void LightSet::move_lights(double time, std::vector<Light>& moved, std::vector<uint32_t>& numbers) const {
+  for (uint32_t i = 0; i < lights_.size(); ++i) {
+    Light light = lights_[i];
+    if (nodes_[i] >= 0) {
+      glm::dmat4 world = motions_->world(static_cast<size_t>(nodes_[i]), time);
+      world[3] -= glm::dvec4(center_, 0);
+      if (!place_on_node(light, world) || rejection_reason(light)) continue;
+    }
+    moved.push_back(light);
+    numbers.push_back(i);
+  }
 }
 
 }  // namespace ml

@@ -82,7 +82,8 @@ class LightSet {
   // as with spawn. A camera that stands still (duration 0) runs at 60 frames a second, so that its lights
   // still move. Never returns a light that rejection_reason() refuses. `identity`: the place of each in
   // base(), which is the same light's in every frame; may be null. Reuses both; allocates nothing once they
-  // have their capacity.
+  // have their capacity, unless nodes carry lights: those are moved first (a light whose node has scale 0
+  // does not shine in that frame).
   void at(uint32_t frame, uint32_t frames, double duration, std::vector<Light>& out,
           std::vector<uint32_t>* identity = nullptr) const;
 
@@ -92,13 +93,18 @@ class LightSet {
   float base_size() const { return size_; }  // m, the s that was used
 
  private:
-  void accept(const Light& light);
+  // Whether it is used; counts it where not.
+  bool accept(const Light& light);
   void take_file_lights(const Scene& scene);
   void place_lights(const Scene& scene);
+  void move_lights(double time, std::vector<Light>& moved, std::vector<uint32_t>& numbers) const;
 
   LightSpec spec_;
   std::vector<Light> lights_;
   LightAccount account_;
+  std::shared_ptr<const NodeMotions> motions_;  // null where no light is carried by a node that moves
+  std::vector<int> nodes_;                      // of motions_, by light, -1 for those that stand still
+  glm::dvec3 center_{0};                        // m, the scene's origin in the nodes' world
   float size_ = 0;
 };
 

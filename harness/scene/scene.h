@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -72,13 +73,18 @@ struct Scene {
   std::vector<Material> materials;  // at least one
   std::vector<Texture> textures;
   LightDefaults light_defaults;
-  std::vector<Light> lights;      // the file's own (KHR_lights_punctual), for placement `gltf`
+  std::vector<Light> lights;  // the file's own (KHR_lights_punctual), for placement `gltf`
+  // The node of `motions` that carries each of `lights`, -1 where it stands still; empty where all do.
+  std::vector<int> light_nodes;
   Rejections rejected_lights;     // further lights of the file, which cannot be given a place or a radius
   std::vector<CameraPath> paths;  // the first is `default`
-  std::vector<Bounds> rooms;      // from floor to ceiling, for the placements `stage` and `room`
-  Bounds bounds;                  // of the vertices
-  float near = 0.1f;              // m
-  float far = 1000;               // m, the depth range of grids: about the longest view
+  // Null where nothing moves. The level as it stands here is that of motions->begin().
+  std::shared_ptr<const NodeMotions> motions;
+  glm::dvec3 motion_center{0};  // m, what was subtracted from the world of `motions`
+  std::vector<Bounds> rooms;    // from floor to ceiling, for the placements `stage` and `room`
+  Bounds bounds;                // of the vertices
+  float near = 0.1f;            // m
+  float far = 1000;             // m, the depth range of grids: about the longest view
   std::vector<std::string>
       notes;  // one line each: what the importer could not represent, to be shown to the user
 

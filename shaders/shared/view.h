@@ -20,7 +20,8 @@ struct ViewData {
   float far;          // m
   uint orthographic;  // 0 or 1
   uint light_count;
-  uvec2 unused;
+  float clip_far;  // m, surfaces farther than this are not seen; 0: there is no such distance
+  uint unused;
 };
 ML_SIZE(ViewData, 96);
 

@@ -23,7 +23,8 @@ class GBuffer : public DeviceTest {
   };
   static View look(const Scene& scene, const Camera& camera, uint32_t width, uint32_t height,
                    bool alpha_mask = false) {
-    DeviceFrame frame(device(), scene, {.alpha_mask = alpha_mask}, width, height);
+    DeviceFrame frame(device(), scene, {.alpha_mask = alpha_mask, .clip_far = camera.projection.clips_far},
+                      width, height);
     FrameInput input;
     input.view = view_data(camera, width, height, 0);
     frame.load(input);
@@ -74,6 +75,27 @@ TEST_F(GBuffer, PositionsLieOnThePlane) {
       }
     EXPECT_GT(lit, width * height / 4);
   }
+}
+
+// A perspective far plane cuts where the depth is, not where the distance is, and changes nothing before it.
+TEST_F(GBuffer, AFarPlaneCuts) {
+  constexpr uint32_t width = 64, height = 36;
+  Camera camera =
+      Camera::look_at({0, 3, 7}, {0, 0, 0}, Projection::perspective(0.9f, 16.0f / 9, 0.1f, 8), {0.3, 1, 0});
+  const Scene scene = floor_at({0, 0, 0}, 60);
+  const View whole = look(scene, camera, width, height);
+  camera.projection.clips_far = true;
+  const View cut = look(scene, camera, width, height);
+  uint32_t near = 0, far = 0;
+  for (size_t pixel = 0; pixel < size_t{width} * height; ++pixel) {
+    const double depth = whole.depth(pixel);
+    if (std::abs(depth - 8) < 1e-5) continue;
+    EXPECT_EQ(cut.depth(pixel), depth > 8 ? 0 : depth);
+    near += depth > 0 && depth < 8;
+    far += depth > 8;
+  }
+  EXPECT_GT(near, 100u);
+  EXPECT_GT(far, 100u);
 }
 
 TEST_F(GBuffer, OrthographicDepthIsLinear) {

@@ -181,5 +181,37 @@ TEST_F(HardCases, Case14_PicturesThatAreNoMultipleOfTheTile) {
   }
 }
 
+// Straight down and up, near it, and with roll: no pitch and no roll is special to bounds and grids.
+TEST_F(HardCases, Case58_SteepPitchWithRoll) {
+  HandMadeScene made;
+  made.rectangle({-30, 0, 30}, {60, 0, 0}, {0, 0, -60});  // a floor
+  made.rectangle({-30, 9, -30}, {60, 0, 0}, {0, 0, 60});  // a ceiling
+  for (int i = 0; i < 6; ++i) {
+    const float x = 2.5f * static_cast<float>(i) - 7, z = 3.0f * static_cast<float>(i % 3) - 4;
+    made.box({x, 0, z}, {x + 1, 1 + 0.5f * static_cast<float>(i), z + 1});
+    made.box({z, 8 - 0.3f * static_cast<float>(i), x}, {z + 0.5f, 9, x + 2});
+  }
+  Exactness check(made.finish(), width, height);
+  const std::vector<Light> lights = scattered(150, {-12, -1, -12}, {12, 10, 12}, 0.2f, 6, 58);
+  const Projection wide = Projection::perspective(75 * degrees, 16.0f / 9, 0.05f, 60);
+  const Projection flat = Projection::orthographic(9, 5, 0.05f, 20);
+  for (double pitch : {-90.0, 90.0, -89.5, 89.97}) {
+    for (double roll : {0.0, 35.0, 180.0, 271.0}) {
+      const double p = pitch * 0.017453292519943295, r = roll * 0.017453292519943295;
+      // Seen along `forward` with `level` up, then rolled about it.
+      const glm::dvec3 forward(0.6 * std::cos(p), std::sin(p), -0.8 * std::cos(p)),
+          level(-0.6 * std::sin(p), std::cos(p), 0.8 * std::sin(p)),
+          side = glm::cross(forward, level), up = std::cos(r) * level + std::sin(r) * side,
+          eye(0.3, 4.2, -0.4);
+      SCOPED_TRACE(testing::Message() << "pitch " << pitch << ", roll " << roll);
+      const Camera camera = Camera::look_at(eye, eye + forward, roll == 180 ? flat : wide, up);
+      EXPECT_LT(glm::length(glm::dvec3(camera.up) - up), 1e-6);
+      const Seen seen =
+          check.expect_exact(camera, lights, {{.tile = 24}, {.tile = 8, .refinement = true}}, 3);
+      EXPECT_GT(seen.contributing(), 0u);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ml::test

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
 #include "depth_probe.h"
+#include "harness/base/random.h"
 #include "harness/scene/mesh_builder.h"
 #include "harness/scene/procedural.h"
+#include "harness/scene/view_probe.h"
 
 namespace ml {
 namespace {
@@ -136,6 +139,83 @@ TEST(AutomaticPath, WorksOnTheCanyonAndDependsOnTheSeedAlone) {
   EXPECT_TRUE(same_path(path, automatic_path(scene, 1)));
   EXPECT_FALSE(same_path(path, automatic_path(scene, 2)));
   for (const CameraKey& key : path.keys) EXPECT_FALSE(rays.nearest(key.position, {0, 1, 0}, 0.25));
+}
+
+// The least share of the picture that is a surface, over frames that fall between the path's own samples.
+double least_seen(const Scene& scene, const CameraPath& path, uint32_t frames) {
+  const RayCaster rays(scene);
+  const ViewProbe probe(scene, rays);
+  double least = 1;
+  for (uint32_t frame = 0; frame < frames; ++frame)
+    least = std::min(least, probe.seen(path.sample(frame, frames, 240, 135, scene.near, scene.far), 64, 36));
+  return least;
+}
+
+glm::dvec3 random_point(Random& random, double size) {
+  return size * glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+}
+
+// Boxes, cards that show one side alone and loose triangles, from millimetres to a kilometre.
+Scene random_level(Random& random) {
+  MeshBuilder mesh;
+  const uint32_t material = mesh.add_material({});
+  const double size = std::pow(10.0, static_cast<double>(random.uniform(-3, 3)));
+  const auto count = static_cast<int>(random.uniform(1, 8));
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 at = random_point(random, size);
+    switch (static_cast<int>(random.uniform(0, 3))) {
+      case 0: {
+        const glm::dvec3 half = glm::abs(random_point(random, size)) + 0.01 * size;
+        mesh.box(at - half, at + half, material);
+        break;
+      }
+      case 1: {
+        const glm::dvec3 a = random_point(random, size), b = random_point(random, size);
+        mesh.quad(at, at + a, at + a + b, at + b, material);
+        break;
+      }
+      default: {
+        const double y = size * static_cast<double>(random.uniform(-1, 1));
+        mesh.quad({-size, y, -size}, {-size, y, size}, {size, y, size}, {size, y, -size}, material);
+      }
+    }
+  }
+  Scene scene = mesh.finish();
+  scene.near = std::min(0.1f, 0.01f * glm::length(scene.bounds.size()));
+  scene.far = glm::length(scene.bounds.size());
+  return scene;
+}
+
+TEST(AutomaticPath, EveryFrameOfARandomLevelSeesASurface) {
+  Random random(11);
+  for (int i = 0; i < 150; ++i) {
+    const Scene scene = random_level(random);
+    const CameraPath path = automatic_path(scene, static_cast<uint32_t>(i));
+    expect_sound(path);
+    EXPECT_GT(least_seen(scene, path, 61), 0) << "level " << i;
+  }
+}
+
+// Seen from outside, as large as the picture allows.
+TEST(AutomaticPath, FramesSmallObjects) {
+  for (double size : {0.002, 0.1, 2.0, 4.0}) {
+    MeshBuilder mesh;
+    mesh.box(glm::dvec3(-0.5 * size), glm::dvec3(0.5 * size), mesh.add_material({}));
+    Scene scene = mesh.finish();
+    scene.near = std::min(0.1f, static_cast<float>(0.01 * size));
+    const CameraPath path = automatic_path(scene, 1);
+    for (const CameraKey& key : path.keys) EXPECT_GT(glm::length(key.position), 0.87 * size);
+    EXPECT_GT(least_seen(scene, path, 31), 0.08) << size;
+  }
+}
+
+TEST(AutomaticPath, FindsWhatIsSmallInWideBounds) {
+  MeshBuilder mesh;
+  const uint32_t material = mesh.add_material({});
+  mesh.quad({0, 0, 0}, {1e-3, 0, 0}, {1e-3, 1e-3, 0}, {0, 1e-3, 0}, material);
+  mesh.quad({500, 90, 0}, {500.01, 90, 0}, {500.01, 90.01, 0}, {500, 90.01, 0}, material);
+  const Scene scene = mesh.finish();
+  EXPECT_GT(least_seen(scene, automatic_path(scene, 1), 31), 0.01);
 }
 
 class RealLevel : public testing::TestWithParam<const char*> {};

@@ -84,9 +84,9 @@ TEST(GltfLight, OwnShapesTakeTheirAxesFromTheNodeAndNoScale) {
 }
 
 TEST(GltfLight, OwnShapesThatAreIncompleteAreErrors) {
-  auto message = [](const Json& own, const char* type, const Json& scale = {1, 1, 1}) -> std::string {
+  auto message = [](const Json& own, const char* type) -> std::string {
     try {
-      shaped_light(own, type, scale);
+      shaped_light(own, type);
     } catch (const UsageError& error) {
       return error.what();
     }
@@ -101,17 +101,63 @@ TEST(GltfLight, OwnShapesThatAreIncompleteAreErrors) {
             place + ".extras.manylights.shape: unknown value 'boxx', did you mean 'box'?");
   EXPECT_EQ(message({{"shape", "box"}, {"half_extents", {1, 2}}}, "point"),
             place + ".extras.manylights.half_extents: expected 3 numbers");
-  EXPECT_EQ(message({{"shape", "capsule"}, {"half_length", 1}}, "point", {0, 1, 1}),
-            "test.glb: nodes[2]: a capsule light needs a direction, but the scale is 0");
+}
+
+// Other programs hide a light by scale 0: it is counted, and the level stays.
+TEST(GltfLight, UnderScaleZeroItIsRejected) {
+  const Json spot = {{"type", "spot"}, {"range", 9}, {"spot", Json::object()}};
+  const Json capsule = {{"type", "point"},
+                        {"range", 9},
+                        {"extras", {{"manylights", {{"shape", "capsule"}, {"half_length", 1}}}}}};
+  auto rejected = [](const Json& light, const Json& scale) {
+    GltfTestFile file = lit_file(light, {{"scale", scale}});
+    const Scene scene = file.load();
+    EXPECT_EQ(scene.lights.size() + scene.rejected_lights.size(), 1u);
+    return scene.lights.empty() && scene.rejected_lights.at("its node has scale 0") == 1;
+  };
+  EXPECT_TRUE(rejected(spot, {0, 0, 0}));
+  EXPECT_TRUE(rejected({{"type", "point"}, {"range", 9}}, {0, 0, 0}));
+  EXPECT_TRUE(rejected(spot, {1, 1, 0}));
+  EXPECT_TRUE(rejected(capsule, {0, 1, 1}));
+  EXPECT_FALSE(rejected(spot, {0, 1, 1}));
+  EXPECT_FALSE(rejected({{"type", "point"}, {"range", 9}}, {1, 0, 1}));
+  // The same where a node above has it.
+  GltfTestFile file = lit_file(spot, Json::object());
+  file.json["nodes"].push_back({{"children", {2}}, {"scale", {0, 0, 0}}});
+  file.json["scenes"][0]["nodes"] = {0, 1, 3};
+  EXPECT_EQ(file.load().rejected_lights.at("its node has scale 0"), 1u);
 }
 
 TEST(GltfLight, WithoutRangeItEndsWhereItIsDim) {
-  // 0.01 W/m^2 lie at 10 * sqrt(I) m; the level's diagonal of 5.66 m caps it.
+  // 0.01 W/m^2 lie at 10 * sqrt(I) m, in a level of 5.66 m too: its window must not darken what is near.
   Scene dim = lit_file({{"type", "point"}, {"intensity", 0.04}}, Json::object()).load();
   EXPECT_FLOAT_EQ(dim.lights[0].radius, 2.0f);
   Scene bright = lit_file({{"type", "point"}, {"intensity", 1e9}}, Json::object()).load();
-  EXPECT_FLOAT_EQ(bright.lights[0].radius, std::sqrt(32.0f));
+  EXPECT_FLOAT_EQ(bright.lights[0].radius, 10 * std::sqrt(1e9f));
   EXPECT_EQ(bright.notes.back(), "1 lights have no range, and end where they give 0.01 W/m^2");
+}
+
+// Exporters write the largest float for "infinite".
+TEST(GltfLight, ARangeBeyondAnyLevelIsNone) {
+  for (double range : {3.4028234663852886e38, 1e300, 2e9}) {
+    Scene scene = lit_file({{"type", "point"}, {"intensity", 4}, {"range", range}}, Json::object()).load();
+    EXPECT_FLOAT_EQ(scene.lights[0].radius, 20.0f) << range;
+    EXPECT_EQ(rejection_reason(scene.lights[0]), nullptr);
+  }
+  EXPECT_EQ(lit_file({{"type", "point"}, {"range", 1e6}}, Json::object()).load().lights[0].radius, 1e6f);
+}
+
+TEST(GltfLight, WithoutIntensityItIsDark) {
+  for (const Json& light : {Json{{"type", "point"}, {"intensity", 0}},
+                            Json{{"type", "point"}, {"intensity", 5}, {"color", {0, 0, 0}}, {"range", 3}}}) {
+    const Scene scene = lit_file(light, Json::object()).load();
+    LightSpec spec;
+    spec.placement = Placement::gltf;
+    const LightSet set(spec, scene);
+    EXPECT_EQ(set.account().dark, 1u);
+    EXPECT_EQ(set.account().rejected(), 0u);
+    EXPECT_TRUE(set.base().empty());
+  }
 }
 
 TEST(GltfLight, UnusableOnesAreLeftToTheLightSet) {
@@ -123,7 +169,9 @@ TEST(GltfLight, UnusableOnesAreLeftToTheLightSet) {
 TEST(GltfLight, DirectionalIsNoted) {
   Scene scene = lit_file({{"type", "directional"}}, Json::object()).load();
   EXPECT_TRUE(scene.lights.empty());
-  EXPECT_EQ(scene.notes.back(), "1 directional lights are ignored");
+  EXPECT_EQ(scene.rejected_lights.at("directional (a sun)"), 1u);
+  EXPECT_EQ(scene.notes.back(),
+            "1 directional light (a sun) is not used: the bench's lights have a place and a radius");
 }
 
 }  // namespace
