@@ -99,6 +99,7 @@ void SetupRun::counting_lap(const Step& done) {
       lit = lit_pixels(frame_);
     }
     for (size_t i = 0; i < cases_.size(); ++i) {
+      stop_if_interrupted();
       auto span = log_.span("counting");
       spans_.clear();
       algorithms_[i]->prepare(*input_, spans_, frame_.seen_blocks().places());
@@ -129,6 +130,7 @@ void SetupRun::timed_lap(uint32_t lap, const Step& done) {
   for (uint32_t index = 0; index < workload_.frames().frames(); ++index) {
     load(index, wants_lists_);
     for (uint32_t i : interleaved_order(count, config_.measure.seed, lap, index)) {
+      stop_if_interrupted();
       ShadedAlgorithm& algorithm = *algorithms_[i];
       spans_.clear();
       auto begin = Clock::now();

@@ -59,6 +59,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
     return fail(ml::ExitCode::usage, error.what() + std::string(" (--help shows how)"));
+  } catch (const ml::Interrupted& error) {
+    if (ml::may_tell_of_interruption()) fail(error.code(), error.what());
+    return static_cast<int>(error.code());
   } catch (const ml::Error& error) {
     return fail(error.code(), error.what());
   } catch (const std::bad_alloc&) {

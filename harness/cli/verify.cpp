@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 
 #include "harness/cli/commands.h"
@@ -22,6 +23,7 @@ ExitCode verify(const Arguments& arguments) {
   std::vector<Claim> claims = verify_config(config, arguments.options, [&](const Claim& claim) {
     if (claim.subject != subject) fmt::print("{}\n", subject = claim.subject);
     fmt::print("  {}  {}: {}\n", claim.holds ? "proven" : "FAILED", claim.text, claim.evidence);
+    std::fflush(stdout);  // what is proven is told, also when the rest is interrupted
   });
   auto failed = std::count_if(claims.begin(), claims.end(), [](const Claim& claim) { return !claim.holds; });
   fmt::print("{} claims proven, {} failed\n", claims.size() - static_cast<size_t>(failed), failed);
