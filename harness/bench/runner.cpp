@@ -9,6 +9,7 @@
 
 #include "harness/base/error.h"
 #include "harness/base/file.h"
+#include "harness/base/folder_lock.h"
 #include "harness/bench/context.h"
 #include "harness/bench/interruption.h"
 #include "harness/bench/progress.h"
@@ -24,14 +25,19 @@ std::map<size_t, std::vector<Case>> by_setup(const std::vector<Case>& cases) {
   return groups;
 }
 
+std::filesystem::path result_file(const RunOptions& options) {
+  return options.out / "result.json";
+}
+
 // The complete cases of an earlier run of the same configuration.
 std::vector<nlohmann::json> earlier_cases(const Config& config, const RunOptions& options) {
-  std::filesystem::path file = options.out / "result.json";
+  const std::filesystem::path file = result_file(options);
   if (!options.resume || !std::filesystem::exists(file)) return {};
   nlohmann::json earlier = read_result(file);
   if (earlier["config"] != config.resolved)
-    throw UsageError(file.string() +
-                     ": is the result of another configuration; choose another folder or leave out --resume");
+    throw UsageError(
+        file.string() +
+        ": is the result of another configuration; choose another folder or replace it with --force");
   std::vector<nlohmann::json> complete;
   for (const nlohmann::json& item : earlier["cases"])
     if (item["repeats_done"] == config.measure.repeats) complete.push_back(item);
@@ -53,7 +59,8 @@ class Recorder {
     result_.complete = complete;
     result_.harness = log_.summary();
     result_.harness["peak_memory_bytes"] = peak_memory_bytes();
-    write_result(result_, options_.out / "result.json");
+    const Uninterrupted guard;
+    write_result(result_, result_file(options_));
   }
 
  private:
@@ -84,9 +91,25 @@ std::vector<Case> selected_cases(const Config& config, const RunOptions& options
   return cases;
 }
 
+void check_output(const RunOptions& options) {
+  const std::filesystem::path file = result_file(options);
+  if (options.resume || options.force || !std::filesystem::exists(file)) return;
+  throw UsageError(file.string() +
+                   ": there is a result already; --resume goes on with it, --force replaces it, --out names "
+                   "another folder");
+}
+
+void check_inputs(const Config& config, const std::vector<Case>& cases) {
+  std::vector<const Setup*> setups;
+  for (const auto& [index, group] : by_setup(cases)) setups.push_back(&config.setups[index]);
+  check_workloads(setups);
+}
+
 Result run_config(const Config& config, const RunOptions& options) {
   std::vector<Case> cases = selected_cases(config, options);
   make_output_directory(options.out);
+  const FolderLock lock(options.out, "run.lock");
+  check_output(options);
   Result result;
   result.earlier_cases = earlier_cases(config, options);
   std::erase_if(cases, [&](const Case& item) {

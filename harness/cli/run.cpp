@@ -2,6 +2,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -38,18 +39,39 @@ size_t output_width() {
   return size.ws_col;
 }
 
+// A folder for the result of each configuration.
+std::vector<std::filesystem::path> output_folders(const Arguments& arguments,
+                                                  const std::vector<Config>& configs) {
+  std::vector<std::filesystem::path> folders;
+  for (const Config& config : configs) {
+    std::filesystem::path folder = arguments.out.empty() ? "out" : arguments.out;
+    if (arguments.out.empty() || configs.size() > 1) folder /= config.name;
+    if (std::find(folders.begin(), folders.end(), folder) != folders.end())
+      throw UsageError("two of the configurations are named '" + config.name +
+                       "', and would write into one folder: " + folder.string());
+    folders.push_back(std::move(folder));
+  }
+  return folders;
+}
+
 ExitCode run(const Arguments& arguments) {
   RunOptions options = arguments.options;
   parse_shard(arguments.shard, options);
   // All configurations are read before any work starts.
   std::vector<Config> configs;
   for (const std::string& name : arguments.configs) configs.push_back(load_config(name, arguments.overrides));
-  for (const Config& config : configs) {
-    std::filesystem::path out = arguments.out.empty() ? "out" : arguments.out;
-    if (arguments.out.empty() || configs.size() > 1) out /= config.name;
-    options.out = out;
+  const std::vector<std::filesystem::path> folders = output_folders(arguments, configs);
+  for (size_t i = 0; i < configs.size(); ++i) {
+    options.out = folders[i];
+    if (!arguments.dry_run) check_output(options);
+  }
+  for (size_t i = 0; i < configs.size(); ++i) {
+    const Config& config = configs[i];
+    options.out = folders[i];
     if (arguments.dry_run) {
-      fmt::print("{}", describe_cases(config, selected_cases(config, options)));
+      const std::vector<Case> cases = selected_cases(config, options);
+      check_inputs(config, cases);
+      fmt::print("{}", describe_cases(config, cases));
       continue;
     }
     Result result = run_config(config, options);
@@ -58,7 +80,7 @@ ExitCode run(const Arguments& arguments) {
                100 * result.harness["overhead_fraction"].get<double>(),
                result.harness["wall_ms"].get<double>() / 1000,
                result.harness["peak_memory_bytes"].get<double>() / 1e6);
-    fmt::print("result: {}\n", (out / "result.json").string());
+    fmt::print("result: {}\n", (options.out / "result.json").string());
   }
   return ExitCode::done;
 }
@@ -90,10 +112,12 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--device", arguments->options.device,
                       "Vulkan device: part of its name, index or UUID");
   command->add_option("--shard", arguments->shard, "I/N: only the I-th of N shares of the setups");
-  command->add_flag("--resume", arguments->options.resume,
-                    "Keep the complete cases of the result that is already there");
+  auto* resume = command->add_flag("--resume", arguments->options.resume,
+                                   "Keep the complete cases of the result that is already there");
+  command->add_flag("--force", arguments->options.force, "Replace the result that is already there")
+      ->excludes(resume);
   command->add_flag("--dry-run", arguments->dry_run,
-                    "Only list the cases, with an estimate of time and memory");
+                    "Only load what the cases need and list them, with an estimate of time and memory");
   command->add_flag("--validation", arguments->options.validation,
                     "Run with the validation layer (times are then worthless)");
   command->add_flag("--quiet", arguments->options.quiet, "No progress");

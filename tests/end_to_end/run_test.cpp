@@ -143,6 +143,55 @@ TEST(Run, KilledInTheMiddleCanBeResumed) {
   EXPECT_EQ(valid_result(folder / "out")["complete"], true);
 }
 
+TEST(Run, TheSecondOfTwoRunsIntoOneFolderStopsAtOnce) {
+  Folder folder;
+  const std::string config = write_config(folder, long_config()), out = (folder / "out").string();
+  // While the first one goes on, a second is tried; then the first is stopped.
+  const std::function<int()> measured = once_measured(folder / "out" / "result.json", 1, SIGTERM);
+  Outcome second;
+  Outcome first = manylights({"run", config, "--out", out, "--quiet"}, stop([&]() -> int {
+                               const int signal_number = measured();
+                               if (signal_number)
+                                 second = manylights({"run", config, "--out", out, "--force"});
+                               return signal_number;
+                             }));
+  expect_error(second, 3, {out, "another run"});
+  EXPECT_EQ(first.code, 4) << first.error;
+  EXPECT_EQ(manylights({"run", config, "--out", out, "--quiet", "--resume"}).code, 0);
+  EXPECT_EQ(valid_result(folder / "out")["complete"], true);
+}
+
+TEST(Run, AResultIsReplacedOnlyWhenToldTo) {
+  Folder folder;
+  const std::string config = write_config(folder, small_config()), out = (folder / "out").string();
+  const std::string other = write_config(folder, small_config({{"lights", {{"count", 7}}}}), "other.json");
+  ASSERT_EQ(manylights({"run", config, "--out", out, "--quiet"}).code, 0);
+  const std::string whole = text_of(folder / "out" / "result.json");
+  for (const std::string& again : {config, other})
+    expect_error(manylights({"run", again, "--out", out, "--quiet"}), 2,
+                 {out, "--resume", "--force", "--out"});
+  expect_error(manylights({"run", config, "--out", out, "--resume", "--force"}), 2, {"--force"});
+  EXPECT_EQ(text_of(folder / "out" / "result.json"), whole);
+  Outcome forced = manylights({"run", other, "--out", out, "--quiet", "--force"});
+  EXPECT_EQ(forced.code, 0) << forced.error;
+  EXPECT_EQ(valid_result(folder / "out")["cases"][0]["lights"], 7);
+  // Nothing but what a run writes stays behind.
+  EXPECT_FALSE(std::filesystem::exists(folder / "out" / "run.lock"));
+  // Two configurations of one name are told before the first is measured.
+  expect_error(manylights({"run", config, other, "--out", (folder / "both").string()}), 2, {"small"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "both"));
+}
+
+TEST(Run, ADryRunReadsWhatItWouldRun) {
+  Folder folder;
+  const std::string config = write_config(folder, small_config());
+  const std::string level = (folder / "missing.glb").string();
+  expect_error(manylights({"run", config, "--dry-run", "--set", "scene.gltf=" + level}), 2,
+               {level, "no such file"});
+  expect_error(manylights({"run", config, "--dry-run", "--set", "camera.path=no_such_path"}), 2,
+               {"no_such_path"});
+}
+
 TEST(Run, InterruptedRunKeepsWhatWasMeasured) {
   for (int number : {SIGINT, SIGTERM}) {
     Folder folder;

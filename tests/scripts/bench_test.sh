@@ -17,6 +17,12 @@ says 'clustered'
 says 'ideal'
 [ "$(tail -n 1 "$scratch/out")" = "result: $tree/out/quick/result.json" ] || fail "the last line is not the path of the result"
 [ -s "$tree/out/quick/result.json" ] || fail "there is no result"
+# Again into the same folder: replaced, or gone on with.
+expect 0 "$tree/scripts/bench.sh" --set 'resolution=[80,45]' --set camera.frames=2 --set lights.count=100 \
+  --set 'outputs={"heatmaps":[],"images":[]}'
+says '80x45'
+expect 0 "$tree/scripts/bench.sh" --set 'resolution=[80,45]' --set camera.frames=2 --set lights.count=100 \
+  --set 'outputs={"heatmaps":[],"images":[]}' --resume
 [ -z "$(ls -A "$scratch/elsewhere")" ] || fail "it left files in the working directory"
 
 # What is wrong with the arguments is the program's exit code.

@@ -12,6 +12,7 @@
 
 #include "harness/base/error.h"
 #include "harness/base/file.h"
+#include "harness/base/folder_lock.h"
 #include "harness/base/parallel.h"
 #include "harness/base/random.h"
 #include "harness/base/spans.h"
@@ -33,6 +34,19 @@ class Files : public testing::Test {
   }
   fs::path folder_;
 };
+
+TEST_F(Files, AFolderIsLockedByOneAtATime) {
+  for (int round = 0; round < 3; ++round) {
+    FolderLock lock(folder_, "lock");
+    EXPECT_THROW(FolderLock(folder_, "lock"), SystemError);
+    FolderLock another(folder_, "another");
+  }
+  EXPECT_EQ(entries(), 0u);
+  // A file that a process left behind when it was killed holds nobody up.
+  std::ofstream(folder_ / "lock").put('x');
+  FolderLock lock(folder_, "lock");
+  EXPECT_THROW(FolderLock(folder_ / "missing", "lock"), SystemError);
+}
 
 TEST(Error, IsOneLineWhateverItIsMadeOf) {
   UsageError error("a\nb\tc\rd\x01" + std::string(10000, 'x'));
