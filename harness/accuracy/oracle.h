@@ -24,8 +24,8 @@ namespace ml {
 
 // A shaded point, camera-relative (world axes), as the g-buffer has it.
 struct SurfacePoint {
-  glm::dvec3 position{0};  // m; the camera is at 0
-  glm::dvec3 normal{0, 1, 0};
+  glm::dvec3 position{0};      // m; the camera is at 0
+  glm::dvec3 normal{0, 1, 0};  // unit, to double precision
   glm::dvec3 albedo{0.5};
   double roughness = 0.8, metallic = 0;
   // Unit, towards the viewer. Zero: perspective, towards the camera at 0. Orthographic: against the camera's
@@ -58,8 +58,14 @@ struct OracleAnswer {
   // or of the cone's edge, relative; a place within 1e-5 of a box's face) that single precision may decide
   // otherwise; they count in `contributing` by the double answer. Near a long segment the margins grow as the
   // distance along it to the distance from it, for single precision knows the offset only within its rounding
-  // of the longer one. A light that another condition excludes clearly is not among them.
+  // of the longer one; and nowhere are they less than what rounding may take (rounding.h). A light that
+  // another condition excludes clearly is not among them.
   uint32_t marginal = 0;
+  // Per channel: no evaluation of the same sum in single precision, from the same point and lights, is
+  // farther from `radiance` than this. It follows from how each light's contribution reacts to rounding here:
+  // some parts in a million at ordinary points, per cents at the edge of a cone, all of a light that rounding
+  // may switch on or off (rounding.h).
+  glm::dvec3 tolerance{0};
 };
 
 OracleAnswer oracle_shade(const SurfacePoint& point, std::span<const OracleLight> lights, bool specular);
@@ -77,7 +83,9 @@ double oracle_box_falloff(const glm::dvec3& place, const glm::dvec3& half_extent
 double oracle_cone(const OracleLight& light, double cosine);
 
 // Diffuse plus, when wanted, specular reflection (1/sr), N.L not included. All directions unit, away from the
-// point; N.L > 0. N.V is taken as max(|N.V|, 1e-4), as interpolated normals may face away from the viewer.
+// point; N.L > 0. N.V is taken as max(|N.V|, 1e-4), as interpolated normals may face away from the viewer;
+// where the half vector then is below the surface, N.H is 0 in GGX's N.H^2 alpha^2 + sin^2, and the sine its
+// own.
 glm::dvec3 oracle_brdf(const SurfacePoint& point, const glm::dvec3& to_light, const glm::dvec3& to_viewer,
                        bool specular);
 

@@ -60,13 +60,14 @@ OracleFrame::OracleFrame(DeviceFrame& frame, const FrameInput& input)
       set_shape(shape, input.lights.extra[i], light);
     lights_.push_back(light);
   }
-  if (input.view.orthographic) view_direction_ = -glm::dvec3(input.view.forward);
+  if (input.view.orthographic) view_direction_ = -glm::normalize(glm::dvec3(input.view.forward));
 }
 
 SurfacePoint OracleFrame::point(size_t pixel) const {
   SurfacePoint point;
   point.position = three(position_, pixel);
-  point.normal = three(normal_, pixel);
+  // Unit to the last bit only in double: the highlight of a smooth surface shows the difference.
+  point.normal = glm::normalize(three(normal_, pixel));
   point.albedo = three(albedo_, pixel);
   point.roughness = static_cast<double>(material_[4 * pixel]);
   point.metallic = static_cast<double>(material_[4 * pixel + 1]);
