@@ -1,5 +1,7 @@
 #include "harness/bench/counting.h"
 
+#include <fmt/format.h>
+
 namespace ml {
 
 PixelCounts read_counts(DeviceFrame& frame) {
@@ -14,6 +16,24 @@ std::vector<uint8_t> lit_pixels(DeviceFrame& frame) {
   std::vector<uint8_t> lit(depth.size());
   for (size_t i = 0; i < depth.size(); ++i) lit[i] = depth[i] > 0;
   return lit;
+}
+
+std::string miscounted(const AlgorithmInfo& info, const PixelCounts& counts, const ContributingLights& truth,
+                       const std::vector<uint8_t>& lit, size_t lights) {
+  uint64_t wrong = 0, lit_pixels = 0;
+  std::string first;
+  for (size_t i = 0; i < lit.size(); ++i) {
+    lit_pixels += lit[i];
+    const uint32_t listed = counts.listed[i], tested = counts.tested[i], reached = counts.contributing[i];
+    const size_t whole = !lit[i] ? 0 : info.reference_only ? lights : truth.count[i];
+    const bool fixed = !lit[i] || info.reference_only || info.needs_contributing_lists;
+    if (fixed ? listed == whole && tested == whole : listed <= lights && reached <= listed) continue;
+    if (wrong++ == 0)
+      first =
+          fixed ? fmt::format("pixel {} lists {} and tests {} of {} lights", i, listed, tested, whole)
+                : fmt::format("pixel {} lists {} of {} lights and evaluates {}", i, listed, lights, reached);
+  }
+  return wrong == 0 ? "" : fmt::format("{} of {} pixels are miscounted: {}", wrong, lit_pixels, first);
 }
 
 FrameCounters summarize(const PixelCounts& counts, const ContributingLights& truth,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "harness/bench/setup_run.h"
 
@@ -36,29 +35,39 @@ double frame_seconds(const Setup& setup, const AlgorithmSpec& algorithm, const A
 
 }  // namespace
 
+CaseSeconds case_seconds(const Config& config, const Case& item, const std::vector<Case>& cases) {
+  const Setup& setup = config.setups[item.setup];
+  const AlgorithmSpec& algorithm = setup.algorithms[item.algorithm];
+  // Contributing lights are found for counting, and in every lap where a case needs their lists.
+  double sharing = 0;
+  bool every_lap = false;
+  for (const Case& other : cases) {
+    if (other.setup != item.setup) continue;
+    ++sharing;
+    every_lap |=
+        find_algorithm(setup.algorithms[other.algorithm].name, other.id).info.needs_contributing_lists;
+  }
+  const double pixels = static_cast<double>(setup.width) * setup.height, lights = setup.lights.count;
+  const double search =
+      (pixels * (per_frame_pixel + lights * per_pixel_light) + lights * per_light) / sharing;
+  const double frame = frame_seconds(setup, algorithm, find_algorithm(algorithm.name, item.id));
+  return {per_case + per_setup / sharing, frame + search + pixels * per_counted_pixel,
+          frame + (every_lap ? search : 0)};
+}
+
 Estimate estimate_run(const Config& config, const std::vector<Case>& cases) {
   Estimate estimate;
   estimate.seconds = start;
-  std::map<size_t, bool> wants_lists;  // by setup: contributing lights are found in every lap
-  const double laps = 1.0 + config.measure.warmup + config.measure.repeats;
+  const double laps = config.measure.warmup + config.measure.repeats;
   for (const Case& item : cases) {
     const Setup& setup = config.setups[item.setup];
-    const AlgorithmSpec& algorithm = setup.algorithms[item.algorithm];
-    const AlgorithmEntry& entry = find_algorithm(algorithm.name, item.id);
-    const double pixels = static_cast<double>(setup.width) * setup.height, frames = setup.camera.frames;
-    estimate.seconds +=
-        per_case + frames * (laps * frame_seconds(setup, algorithm, entry) + pixels * per_counted_pixel);
-    wants_lists[item.setup] |= entry.info.needs_contributing_lists;
-  }
-  for (const auto& [index, every_lap] : wants_lists) {
-    const Setup& setup = config.setups[index];
-    const double pixels = static_cast<double>(setup.width) * setup.height, lights = setup.lights.count;
-    const double searched = setup.camera.frames * (every_lap ? laps : 1);
-    estimate.seconds +=
-        per_setup + searched * (pixels * (per_frame_pixel + lights * per_pixel_light) + lights * per_light);
+    const CaseSeconds seconds = case_seconds(config, item, cases);
+    estimate.seconds += seconds.programs + setup.camera.frames * (seconds.counting + laps * seconds.timing);
     // Depth 4, surface 8, result 16, counters 24, reference 8 and its copies 8, lists about 16 bytes a pixel.
-    estimate.memory_bytes = std::max(
-        estimate.memory_bytes, static_cast<uint64_t>(pixels * 84 + lights * 200 + shadow_pixels(setup) * 4));
+    const double pixels = static_cast<double>(setup.width) * setup.height;
+    estimate.memory_bytes =
+        std::max(estimate.memory_bytes,
+                 static_cast<uint64_t>(pixels * 84 + setup.lights.count * 200.0 + shadow_pixels(setup) * 4));
   }
   return estimate;
 }

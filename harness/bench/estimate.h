@@ -13,6 +13,15 @@ struct Estimate {
   uint64_t memory_bytes = 0;  // targets, lists of contributing lights and counters of the largest setup
 };
 
+// Seconds that the steps of a case are expected to take, its share of what all cases of its setup need in
+// common included.
+struct CaseSeconds {
+  double programs = 0;
+  double counting = 0;  // of one frame
+  double timing = 0;    // of one frame
+};
+CaseSeconds case_seconds(const Config& config, const Case& item, const std::vector<Case>& cases);
+
 // From pixels, lights, laps and frames, with costs per unit measured on a software device of two cores.
 Estimate estimate_run(const Config& config, const std::vector<Case>& cases);
 

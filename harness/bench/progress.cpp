@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 
 namespace ml {
@@ -18,34 +17,41 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::string title, uint64_t total, bool quiet)
+Progress::Progress(std::string title, bool quiet)
     : title_(std::move(title)),
-      total_(std::max<uint64_t>(total, 1)),
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
       begin_(Clock::now()),
+      advanced_(begin_),
       printed_(begin_) {}
 
 Progress::~Progress() {
   if (line_open_) std::fputc('\n', stderr);
 }
 
-void Progress::advance(uint64_t steps, const std::string& what) {
-  done_ = std::min(done_ + steps, total_);
+void Progress::plan(StepKind kind, double expected_seconds, uint64_t steps) {
+  time_.plan(kind, expected_seconds * static_cast<double>(steps));
+  steps_ += steps;
+}
+
+void Progress::advance(StepKind kind, double expected_seconds, const std::string& what) {
+  const Clock::time_point now = Clock::now();
+  time_.add(kind, expected_seconds, milliseconds_between(advanced_, now) / 1000);
+  advanced_ = now;
+  ++done_;
   // A terminal line is renewed five times a second; a log gets a line every ten seconds.
-  double wait = terminal_ ? 200 : 10000;
-  bool last = done_ == total_;
-  if (quiet_ || (!last && milliseconds_between(printed_, Clock::now()) < wait)) return;
+  const double wait = terminal_ ? 200 : 10000;
+  const bool last = done_ == steps_;
+  if (quiet_ || (!last && milliseconds_between(printed_, now) < wait)) return;
   print(what, last);
 }
 
 void Progress::print(const std::string& what, bool last) {
   printed_ = Clock::now();
-  double elapsed = milliseconds_between(begin_, printed_) / 1000;
-  double left = elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_);
-  std::string line = fmt::format("{}: {:3.0f} %, {} {}  {}", title_,
-                                 100.0 * static_cast<double>(done_) / static_cast<double>(total_),
-                                 duration(last ? elapsed : left), last ? "in all" : "left", last ? "" : what);
+  std::string line =
+      fmt::format("{}: {:3.0f} %, {} {}  {}", title_, 100 * (last ? 1 : time_.fraction_done()),
+                  duration(last ? milliseconds_between(begin_, printed_) / 1000 : time_.seconds_left()),
+                  last ? "in all" : "left", last ? "" : what);
   if (terminal_) {
     std::fprintf(stderr, "\r\033[K%.118s", line.c_str());
     line_open_ = !last;

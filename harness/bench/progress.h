@@ -6,27 +6,31 @@
 #include <string>
 
 #include "harness/base/spans.h"
+#include "harness/bench/time_left.h"
 
 namespace ml {
 
 class Progress {
  public:
-  // `total` steps of about equal cost; `quiet` prints nothing.
-  Progress(std::string title, uint64_t total, bool quiet = false);
+  // `quiet` prints nothing.
+  explicit Progress(std::string title, bool quiet = false);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // `steps` more are done; `what` names the work at hand.
-  void advance(uint64_t steps, const std::string& what);
+  // Steps to come, before the first is done.
+  void plan(StepKind kind, double expected_seconds, uint64_t steps = 1);
+  // A step is done. It took the time since the last one. `what` names the work at hand.
+  void advance(StepKind kind, double expected_seconds, const std::string& what);
 
  private:
   void print(const std::string& what, bool last);
   std::string title_;
-  uint64_t total_, done_ = 0;
+  TimeLeft time_;
+  uint64_t steps_ = 0, done_ = 0;
   bool quiet_, terminal_;
   bool line_open_ = false;
-  Clock::time_point begin_, printed_;
+  Clock::time_point begin_, advanced_, printed_;
 };
 
 }  // namespace ml

@@ -6,6 +6,7 @@
 
 #include "harness/base/error.h"
 #include "harness/base/file.h"
+#include "harness/bench/bookkeeping.h"
 #include "harness/bench/case_pictures.h"
 #include "harness/bench/workload.h"
 #include "harness/output/lights_csv.h"
@@ -107,13 +108,13 @@ std::vector<std::filesystem::path> render_frame(const Config& config, const Rend
   Workload workload(setup, config.measure.threads);
   gpu::Device device({options.device, options.validation});
   fmt::print("device: {} ({}, {})\n", device.info().name, device.info().type, device.info().driver);
-  for (const std::string& note : workload.scene()->notes)
-    fmt::print(stderr, "{}: {}\n", setup.scene_label, note);
   DeviceFrame frame(device, *workload.scene(), workload.effects(), setup.width, setup.height);
   const AlgorithmEntry& entry = find_algorithm(spec.name, "render");
   ShadedAlgorithm algorithm(device, entry, spec.parameters, workload.effects());
   const FrameInput& input = workload.frames().at(options.frame);
   frame.load(input);
+  require_surface(setup, frame.seen_blocks().places().empty(), 1);
+  tell_books(setup, workload, 0, 1);
   if (entry.info.needs_contributing_lists) frame.find_contributing(input, true);
   Spans spans;
   algorithm.prepare(input, spans, frame.seen_blocks().places());

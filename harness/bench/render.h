@@ -24,7 +24,8 @@ struct RenderOptions {
 const std::vector<std::string>& aov_names();
 
 // Renders the frame of the configuration's first setup. AOVs are written beside `out` as STEM.NAME.exr.
-// Returns all files written. Throws UsageError (frame or AOV out of range, unknown ending) and SystemError.
+// Returns all files written. Tells on stderr what the level brings and what of it is used. Throws UsageError
+// (frame or AOV out of range, unknown ending, a frame in which no surface is seen) and SystemError.
 std::vector<std::filesystem::path> render_frame(const Config& config, const RenderOptions& options);
 
 }  // namespace ml

@@ -21,6 +21,9 @@ class RunLog {
   // A stretch of the harness's own work; these do not nest.
   Spans::Span span(std::string_view name) { return spans_.span(name); }
 
+  // A lap whose samples are kept; all other wall time is what the bench costs beside.
+  void add_timed_lap(double milliseconds) { timed_laps_ += milliseconds; }
+
   // Times of one sample for the trace: stages in order, from `at` on.
   void trace(const std::string& row, Clock::time_point at,
              const std::vector<std::pair<std::string, double>>& stages,
@@ -43,7 +46,7 @@ class RunLog {
   }
   const std::vector<TraceEvent>& events() const { return events_; }
 
-  // Spans, wall time and the part of it that is in no span.
+  // Spans, wall time, the part of it outside the timed laps, and the part in no span.
   nlohmann::json summary() const {
     double wall = milliseconds_between(begin_, Clock::now()), accounted = 0;
     nlohmann::json spans = nlohmann::json::object();
@@ -53,6 +56,8 @@ class RunLog {
     }
     return {{"wall_ms", wall},
             {"spans_ms", spans},
+            {"timed_laps_ms", timed_laps_},
+            {"outside_timed_laps_fraction", wall > 0 ? std::max(0.0, 1 - timed_laps_ / wall) : 0.0},
             {"overhead_fraction", wall > 0 ? std::max(0.0, 1 - accounted / wall) : 0.0}};
   }
 
@@ -60,6 +65,7 @@ class RunLog {
   bool trace_;
   Clock::time_point begin_;
   Spans spans_;
+  double timed_laps_ = 0;  // ms
   std::vector<TraceEvent> events_;
 };
 

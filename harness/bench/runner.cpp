@@ -6,11 +6,13 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "harness/base/error.h"
 #include "harness/base/file.h"
 #include "harness/base/folder_lock.h"
 #include "harness/bench/context.h"
+#include "harness/bench/estimate.h"
 #include "harness/bench/interruption.h"
 #include "harness/bench/progress.h"
 #include "harness/bench/setup_run.h"
@@ -70,10 +72,31 @@ class Recorder {
   RunLog& log_;
 };
 
-uint64_t samples_of(const Config& config, const std::vector<Case>& cases) {
-  uint64_t laps = 1 + config.measure.warmup + config.measure.repeats, samples = 0;
-  for (const Case& item : cases) samples += config.setups[item.setup].camera.frames * laps;
-  return samples;
+// The steps of a case of the setup, as planned and as done.
+double expected_seconds(const CaseSeconds& seconds, StepKind kind) {
+  switch (kind) {
+    case StepKind::programs:
+      return seconds.programs + seconds.counting;
+    case StepKind::timing:
+      return seconds.timing;
+    default:
+      return seconds.counting;
+  }
+}
+
+// Pictures of a frame, where they are asked for, are counted once more.
+uint64_t picture_frames(const Config& config) {
+  std::set<uint32_t> frames(config.outputs.heatmaps.begin(), config.outputs.heatmaps.end());
+  frames.insert(config.outputs.images.begin(), config.outputs.images.end());
+  return frames.size();
+}
+
+void plan_case(const Config& config, const Case& item, const CaseSeconds& seconds, Progress& progress) {
+  const uint64_t frames = config.setups[item.setup].camera.frames;
+  const uint64_t steps[] = {1, frames - 1, frames * (config.measure.warmup + config.measure.repeats),
+                            picture_frames(config)};
+  const StepKind kinds[] = {StepKind::programs, StepKind::counting, StepKind::timing, StepKind::pictures};
+  for (size_t i = 0; i < 4; ++i) progress.plan(kinds[i], expected_seconds(seconds, kinds[i]), steps[i]);
 }
 
 }  // namespace
@@ -139,8 +162,8 @@ Result run_config(const Config& config, const RunOptions& options) {
     fmt::print("device: {} ({}, {})\n", device->info().name, device->info().type, device->info().driver);
   const nlohmann::json& calibration = result.context["calibration"];
   Recorder recorder(result, options, *device, log);
-  Progress progress(config.name, samples_of(config, cases), options.quiet);
-  auto step = [&](uint64_t samples, const std::string& what) { progress.advance(samples, what); };
+  Progress progress(config.name, options.quiet);
+  for (const Case& item : cases) plan_case(config, item, case_seconds(config, item, cases), progress);
 
   std::vector<CaseResult> finished;
   for (const auto& [index, group] : groups) {
@@ -149,8 +172,11 @@ Result run_config(const Config& config, const RunOptions& options) {
     SetupRun run(*device, config, group, scene, log);
     scene = run.workload().scene();
     scene_spec = setup.scene;
-    if (!options.quiet)
-      for (const std::string& note : scene->notes) fmt::print(stderr, "{}: {}\n", setup.scene_label, note);
+    std::vector<CaseSeconds> expected;
+    for (const Case& item : group) expected.push_back(case_seconds(config, item, group));
+    auto step = [&](StepKind kind, size_t place, const std::string& what) {
+      progress.advance(kind, expected_seconds(expected[place], kind), what);
+    };
     auto settle = [&] {
       for (CaseResult& item : run.results())
         if (!calibration["agrees"].get<bool>()) {
@@ -159,14 +185,16 @@ Result run_config(const Config& config, const RunOptions& options) {
         }
     };
     try {
-      run.counting_lap(step);
+      run.counting_lap(step, !options.quiet);
       recorder.write(finished, run.results(), false);
       for (uint32_t lap = 0; lap < config.measure.warmup + config.measure.repeats; ++lap) {
+        const Clock::time_point begin = Clock::now();
         run.timed_lap(lap, step);
+        if (lap >= config.measure.warmup) log.add_timed_lap(milliseconds_between(begin, Clock::now()));
         settle();
         if (lap >= config.measure.warmup) recorder.write(finished, run.results(), false);
       }
-      run.pictures(options.out, [](uint64_t, const std::string&) {});
+      run.pictures(options.out, step);
     } catch (const Interrupted&) {
       settle();
       recorder.write(finished, run.results(), false);

@@ -20,7 +20,7 @@ struct RunOptions {
   bool force = false;   // replace a result that is in `out`
   uint32_t shard = 0, shards = 1;  // only the setups with number % shards == shard
   bool validation = false;         // validation layers: for tests; the result says so
-  bool quiet = false;              // no progress
+  bool quiet = false;              // no progress, and nothing of what the level brings but in the result
 };
 
 // The cases that are left by filter and shard, in order. Throws UsageError for a filter that is no regular

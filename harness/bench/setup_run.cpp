@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "harness/base/error.h"
+#include "harness/bench/bookkeeping.h"
 #include "harness/bench/calibration.h"
 #include "harness/bench/case_pictures.h"
 #include "harness/bench/interruption.h"
@@ -32,7 +33,7 @@ CaseResult empty_result(const gpu::Device& device, const Config& config, const C
   result.effects = workload.effects().names(device);
   for (uint32_t i = 0; i < setup.camera.frames; ++i) result.frames.push_back(i);
   result.cpu_ms = result.gpu_ms = SampleTable(config.measure.repeats, setup.camera.frames);
-  for (const auto& [reason, count] : workload.lights().rejected()) result.rejected_lights[reason] = count;
+  keep_books(workload, result);
   return result;
 }
 
@@ -90,9 +91,29 @@ void SetupRun::load(uint32_t index, bool lists) {
   }
 }
 
-void SetupRun::counting_lap(const Step& done) {
+void SetupRun::check_counts(size_t i, const PixelCounts& counts, const std::vector<uint8_t>& lit,
+                            const FrameCounters& counters) {
+  CaseResult& result = results_[i];
+  if (result.invalid) return;
+  const AlgorithmInfo& info = algorithms_[i]->info();
+  result.invalid_note = miscounted(info, counts, frame_.contributing(), lit, input_->lights.count());
+  // What the user's caps cut off is counted and told.
+  if (result.invalid_note.empty() && info.exact && counters.mismatched_pixels > 0 &&
+      counters.prepare.overflow_lights == 0)
+    result.invalid_note = fmt::format("{} lights are lost, and {} pixels have others than they should",
+                                      counters.lost, counters.mismatched_pixels);
+  result.invalid = !result.invalid_note.empty();
+  if (result.invalid) {
+    result.invalid_note += fmt::format(", in frame {}", input_->index);
+    fmt::print(stderr, "manylights: {}: the case is invalid: {}\n", result.id, result.invalid_note);
+  }
+}
+
+void SetupRun::counting_lap(const Step& done, bool tell) {
+  uint32_t unseen = 0;
   for (uint32_t index = 0; index < workload_.frames().frames(); ++index) {
     load(index, true);
+    unseen += frame_.seen_blocks().places().empty();
     std::vector<uint8_t> lit;
     {
       auto span = log_.span("counting");
@@ -107,13 +128,19 @@ void SetupRun::counting_lap(const Step& done) {
       // Drivers finish compiling a program at its first dispatch; that must not be in the first sample,
       // warm-up laps or not.
       if (index == 0) algorithms_[i]->shade(frame_, *input_, gpu::Timing::none);
-      FrameCounters counters =
-          summarize(read_counts(frame_), frame_.contributing(), lit, algorithms_[i]->counters());
+      const PixelCounts counts = read_counts(frame_);
+      const FrameCounters counters =
+          summarize(counts, frame_.contributing(), lit, algorithms_[i]->counters());
+      check_counts(i, counts, lit, counters);
       for (const auto& [name, value] : counters.named()) results_[i].counters[name].push_back(value);
-      done(1, "counting " + cases_[i].id);
+      done(index == 0 ? StepKind::programs : StepKind::counting, i, "counting " + cases_[i].id);
     }
   }
+  const Setup& setup = setup_of(config_, cases_);
+  require_surface(setup, unseen, workload_.frames().frames());
+  if (tell) tell_books(setup, workload_, unseen, workload_.frames().frames());
   for (size_t i = 0; i < cases_.size(); ++i) {
+    results_[i].frames_without_surface = unseen;
     results_[i].memory_bytes = {{"lists", algorithms_[i]->upload_bytes()},
                                 {"lights", frame_.light_bytes()},
                                 {"targets", frame_.target_bytes()}};
@@ -141,7 +168,7 @@ void SetupRun::timed_lap(uint32_t lap, const Step& done) {
              shade_ms = milliseconds_between(prepared, Clock::now());
       log_.add("prepare", prepare_ms);
       log_.add("shade", shade_ms);
-      done(1, (measured ? "timing " : "warming up ") + cases_[i].id);
+      done(StepKind::timing, i, (measured ? "timing " : "warming up ") + cases_[i].id);
       if (!measured) continue;
 
       CaseResult& result = results_[i];
@@ -207,7 +234,7 @@ void SetupRun::pictures(const std::filesystem::path& folder, const Step& done) {
                             tile, folder, "heatmaps/" + stem);
         results_[i].heatmaps.insert(results_[i].heatmaps.end(), files.begin(), files.end());
       }
-      done(1, "pictures of " + cases_[i].id);
+      done(StepKind::pictures, i, "pictures of " + cases_[i].id);
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include "harness/bench/counting.h"
 #include "harness/bench/run_log.h"
+#include "harness/bench/time_left.h"
 #include "harness/bench/workload.h"
 #include "harness/output/result.h"
 
@@ -20,9 +21,11 @@ class SetupRun {
   SetupRun(gpu::Device& device, const Config& config, const std::vector<Case>& cases,
            std::shared_ptr<const Scene> scene, RunLog& log);
 
-  // Every step calls `done` with the number of (case, frame) samples it stands for.
-  using Step = std::function<void(uint64_t samples, const std::string& what)>;
-  void counting_lap(const Step& done);
+  // Every step calls `done` with the place of its case among `cases`.
+  using Step = std::function<void(StepKind kind, size_t place, const std::string& what)>;
+  // Also tells on stderr, where `tell`, what the level brings and what of it is used. UsageError when no
+  // frame sees a surface.
+  void counting_lap(const Step& done, bool tell);
   // Lap numbers from 0; the first config.measure.warmup ones are discarded.
   void timed_lap(uint32_t lap, const Step& done);
   // Heat maps and images into the folder, after the timing.
@@ -34,6 +37,9 @@ class SetupRun {
 
  private:
   void load(uint32_t index, bool lists);
+  // Marks the case as invalid, with an error line, when the counters of the frame at hand cannot be right.
+  void check_counts(size_t i, const PixelCounts& counts, const std::vector<uint8_t>& lit,
+                    const FrameCounters& counters);
 
   gpu::Device& device_;
   const Config& config_;

@@ -28,19 +28,19 @@ struct VerifyOptions {
   bool quiet = false;
 };
 
-// Pixels differ from the reference by no more than this part of the reference's own value; values below the
-// floor (this part of the picture's mean luminance) are compared with the floor.
-inline constexpr double image_tolerance = 1e-4, image_floor = 1e-4;
-
 // Checks, for each setup on the frames asked for:
+//  - that brute force, the reference, tested every light at every sampled pixel: else nothing below means
+//  much;
 //  - `contributing` (the reference lists) against brute force on sampled 8x8 blocks, count and set, and
 //  against the double-precision oracle
 //    at sampled points;
 //  - brute force in single against double precision, where the device has it;
+//  - for each case: counters that agree with each other (miscounted());
 //  - for each exact case: lost = 0 and no light twice on every pixel; image equal to brute force on the
 //  sampled blocks and to `ideal` on all
 //    others; nothing NaN or infinite; the same bytes from 1, 2 and 7 threads; the same image bits and
 //    counters on a second run.
+// Pictures are equal when they differ by no more than what rounding makes at each point (picture_proof.h).
 // `report` is called with each claim as it is settled. Returns all of them.
 std::vector<Claim> verify_config(const Config& config, const VerifyOptions& options,
                                  const std::function<void(const Claim&)>& report);

@@ -13,7 +13,7 @@ void add_doctor(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("doctor", "Devices, timers, calibration and noise of this machine");
   command->footer(
       "Exit code 1 when the device's times cannot be trusted. The overhead of a run is in its result "
-      "(harness.overhead_fraction).");
+      "(harness.outside_timed_laps_fraction).");
   command->add_option("--device", *device, "Vulkan device: part of its name, index or UUID");
   command->callback([device, &action] {
     action = [device] {

@@ -45,6 +45,9 @@ const std::vector<Row>& metrics() {
       {"coarse_lights",
        "lists built on the GPU: lights in a tile's list before fine pruning, mean over tiles"},
       {"fine_lights", "the same after fine pruning"},
+      {"harness.timed_laps_ms", "wall time of the laps whose samples are kept"},
+      {"harness.outside_timed_laps_fraction",
+       "the bench's overhead: part of the run's wall time outside timed laps"},
       {"harness.overhead_fraction", "part of the run's wall time that is in no span"},
   };
   return rows;

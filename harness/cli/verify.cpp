@@ -37,11 +37,11 @@ void add_verify(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("verify", "Prove the claims of a configuration; exit code 1 if one fails");
   command->footer(
-      "Proves for every case: no light lost and none evaluated twice, on every pixel; the image is brute "
-      "force's and ideal's\n"
-      "within 1e-4; nothing is NaN or infinite; two runs and 1, 2 and 7 threads give the same bits. And for "
-      "the reference: its\n"
-      "lists of contributing lights are brute force's and a double-precision oracle's.\n"
+      "Proves first that the reference looked at every light. Then for every case: no light lost and none\n"
+      "evaluated twice, on every pixel; the image is brute force's and ideal's within what rounding makes at "
+      "each\n"
+      "point; nothing is NaN or infinite; two runs and 1, 2 and 7 threads give the same bits. And for the\n"
+      "reference: its lists of contributing lights are brute force's and a double-precision oracle's.\n"
       "Example: manylights verify quick --set lights.count=65536 --frames 2");
   command->add_option("CONFIG", arguments->config, "Configuration")->required();
   command->add_option("--set", arguments->overrides, "Override KEY=VALUE")

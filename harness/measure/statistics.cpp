@@ -71,16 +71,33 @@ void resample(std::vector<uint32_t>& picks, size_t laps, Random& random) {
   for (uint32_t& pick : picks) pick = random.below(static_cast<uint32_t>(laps));
 }
 
-// `draw` makes one resampled value with the random numbers that it is given.
-template <typename Draw>
-Interval bootstrap(double value, size_t laps, uint32_t seed, Draw&& draw) {
-  if (!std::isfinite(value)) return {nan, nan, nan};
-  if (laps < 2) return {value, value, value};
+// `value_of` gives the value of the laps that are picked, of all when none are.
+template <typename ValueOf>
+Interval interval_of(size_t laps, uint32_t seed, ValueOf&& value_of) {
+  std::vector<uint32_t> picks;
+  const double value = value_of(picks);
+  if (!std::isfinite(value)) return {nan, nan, nan, laps};
+  Interval interval{value, value, value, laps};
+  if (!interval.is_95()) {
+    for (uint32_t lap = 0; lap < laps && laps > 1; ++lap) {
+      picks = {lap};
+      const double one = value_of(picks);
+      if (!std::isfinite(one)) continue;
+      interval.low = std::min(interval.low, one);
+      interval.high = std::max(interval.high, one);
+    }
+    return interval;
+  }
   Random random(seed);
   std::vector<double> values(draws);
-  for (double& resampled : values) resampled = draw(random);
-  double cut = tail(laps);
-  return {value, std::min(value, quantile(values, cut)), std::max(value, quantile(values, 1 - cut))};
+  for (double& resampled : values) {
+    resample(picks, laps, random);
+    resampled = value_of(picks);
+  }
+  const double cut = tail(laps);
+  interval.low = std::min(value, quantile(values, cut));
+  interval.high = std::max(value, quantile(values, 1 - cut));
+  return interval;
 }
 
 }  // namespace
@@ -106,22 +123,20 @@ double quantile(std::span<const double> samples, double p) {
 
 Interval median_time(const Laps& samples, uint32_t seed) {
   std::vector<double> scratch;
-  auto middle = [&](auto&& lap_of) {
+  return interval_of(samples.size(), seed, [&](const std::vector<uint32_t>& picks) {
     scratch.clear();
-    for (size_t i = 0; i < samples.size(); ++i)
-      for (double sample : samples[lap_of(i)])
+    const size_t laps = picks.empty() ? samples.size() : picks.size();
+    for (size_t i = 0; i < laps; ++i)
+      for (double sample : samples[picks.empty() ? i : picks[i]])
         if (std::isfinite(sample)) scratch.push_back(sample);
     return median_in_place(scratch);
-  };
-  return bootstrap(middle([](size_t i) { return i; }), samples.size(), seed, [&](Random& random) {
-    return middle([&](size_t) { return random.below(static_cast<uint32_t>(samples.size())); });
   });
 }
 
 Interval mean_frame_time(const Laps& samples, uint32_t seed) {
-  size_t frames = frame_count(samples);
+  const size_t frames = frame_count(samples);
   std::vector<double> scratch;
-  auto mean = [&](const std::vector<uint32_t>& picks) {
+  return interval_of(samples.size(), seed, [&](const std::vector<uint32_t>& picks) {
     double sum = 0;
     size_t counted = 0;
     for (size_t frame = 0; frame < frames; ++frame) {
@@ -129,18 +144,21 @@ Interval mean_frame_time(const Laps& samples, uint32_t seed) {
       if (std::isfinite(middle)) sum += middle, ++counted;
     }
     return counted == 0 ? nan : sum / static_cast<double>(counted);
-  };
-  std::vector<uint32_t> picks;
-  return bootstrap(mean({}), samples.size(), seed, [&](Random& random) {
-    resample(picks, samples.size(), random);
-    return mean(picks);
   });
 }
 
 Interval paired_ratio(const Laps& a, const Laps& b, uint32_t seed) {
-  size_t frames = std::min(frame_count(a), frame_count(b));
+  const size_t frames = std::min(frame_count(a), frame_count(b)), laps = std::min(a.size(), b.size());
+  // Laps that were not interleaved are picked apart.
+  Random apart(hash_u32(seed, 1));
+  std::vector<uint32_t> picks_a, picks_b;
   std::vector<double> scratch, ratios;
-  auto ratio = [&](const std::vector<uint32_t>& picks_a, const std::vector<uint32_t>& picks_b) {
+  return interval_of(laps, seed, [&](const std::vector<uint32_t>& picks) {
+    picks_a = picks_b = picks;
+    if (picks.size() > 1 && a.size() != b.size()) {
+      resample(picks_a, a.size(), apart);
+      resample(picks_b, b.size(), apart);
+    }
     ratios.clear();
     for (size_t frame = 0; frame < frames; ++frame) {
       double top = frame_median(a, picks_a, frame, scratch),
@@ -149,16 +167,6 @@ Interval paired_ratio(const Laps& a, const Laps& b, uint32_t seed) {
       if (double quotient = top / bottom; std::isfinite(quotient)) ratios.push_back(quotient);
     }
     return median_in_place(ratios);
-  };
-  std::vector<uint32_t> picks_a, picks_b;
-  return bootstrap(ratio({}, {}), std::min(a.size(), b.size()), seed, [&](Random& random) {
-    resample(picks_a, a.size(), random);
-    if (a.size() == b.size()) {
-      picks_b = picks_a;
-    } else {
-      resample(picks_b, b.size(), random);
-    }
-    return ratio(picks_a, picks_b);
   });
 }
 

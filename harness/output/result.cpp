@@ -88,6 +88,16 @@ json case_json(const CaseResult& one) {
           {"accuracy", without_infinities(one.accuracy)},
           {"memory_bytes", one.memory_bytes},
           {"rejected_lights", one.rejected_lights},
+          {"light_account",
+           {{"of_file", one.light_account.of_file},
+            {"total", one.light_account.total},
+            {"used", one.light_account.used},
+            {"dark", one.light_account.dark},
+            {"left_out", one.light_account.left_out}}},
+          {"notes", one.notes},
+          {"frames_without_surface", one.frames_without_surface},
+          {"invalid", one.invalid},
+          {"invalid_note", one.invalid_note},
           {"overlap", overlap_json(one)},
           {"timing_suspect", one.timing_suspect},
           {"timing_note", one.timing_note},
@@ -155,6 +165,16 @@ CaseResult case_from_json(const json& one) {
   result.accuracy = one.at("accuracy");
   one.at("memory_bytes").get_to(result.memory_bytes);
   result.rejected_lights = one.at("rejected_lights");
+  // Results of before it was counted have none of these.
+  if (one.contains("light_account")) {
+    const json& account = one.at("light_account");
+    result.light_account = {account.at("of_file"), account.at("total"), account.at("used"),
+                            account.at("dark"), account.at("left_out")};
+  }
+  result.notes = one.value("notes", result.notes);
+  result.frames_without_surface = one.value("frames_without_surface", 0u);
+  result.invalid = one.value("invalid", false);
+  result.invalid_note = one.value("invalid_note", "");
   one.at("timing_suspect").get_to(result.timing_suspect);
   one.at("timing_note").get_to(result.timing_note);
   one.at("files").at("heatmaps").get_to(result.heatmaps);

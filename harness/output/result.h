@@ -21,6 +21,12 @@ struct OverlapResult {
   SampleTable ms;                       // "both": for how long; empty where it was not measured
 };
 
+// What became of the lights of the level's file, or of those that a placement was asked for.
+struct LightAccountResult {
+  bool of_file = false;
+  uint32_t total = 0, used = 0, dark = 0, left_out = 0;  // total = used + dark + rejected + left_out
+};
+
 // One case's numbers. Counters are one per frame.
 struct CaseResult {
   std::string id, algorithm, scene;
@@ -33,10 +39,16 @@ struct CaseResult {
   std::map<std::string, std::vector<double>> counters;
   nlohmann::json accuracy = nlohmann::json::object();
   nlohmann::json rejected_lights = nlohmann::json::object();  // reason -> count
+  LightAccountResult light_account;
+  std::vector<std::string> notes;       // what the level asks for and does not get
+  uint32_t frames_without_surface = 0;  // of `frames`
   std::map<std::string, uint64_t> memory_bytes;
   OverlapResult overlap;
   bool timing_suspect = false;
   std::string timing_note;  // why it is suspect
+  // The counters contradict themselves, or lights were lost that no cap of the user's cut off.
+  bool invalid = false;
+  std::string invalid_note;  // how
   uint32_t repeats_done = 0;
   std::vector<std::string> heatmaps, images;  // relative to the result's folder
 };

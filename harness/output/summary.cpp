@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -64,12 +65,18 @@ std::string median_ms(const Laps& laps) {
   return std::isfinite(value) ? milliseconds(value) : "-";
 }
 
-// One lap says nothing of its spread.
-std::string median_and_interval(const Laps& laps) {
-  const Interval time = median_time(laps);
-  if (!std::isfinite(time.value)) return "-";
-  if (laps.size() < 2) return milliseconds(time.value);
-  return fmt::format("{} [{} {}]", milliseconds(time.value), milliseconds(time.low), milliseconds(time.high));
+// "1.250 [1.240 1.270]" for 95 %, "1.250 (1.240..1.270)" for the range of few repeats. One lap says nothing
+// of its spread.
+template <typename Text>
+std::string with_spread(const Interval& interval, Text text) {
+  if (!std::isfinite(interval.value)) return "-";
+  if (interval.repeats < 2) return text(interval.value);
+  return fmt::format(fmt::runtime(interval.is_95() ? "{} [{} {}]" : "{} ({}..{})"), text(interval.value),
+                     text(interval.low), text(interval.high));
+}
+
+std::string median_and_spread(const Laps& laps) {
+  return with_spread(median_time(laps), milliseconds);
 }
 
 std::optional<double> counter_sum(const CaseResult& one, const char* name) {
@@ -127,8 +134,9 @@ bool same_setup(const CaseResult& a, const CaseResult& b) {
          a.effects == b.effects && a.frames == b.frames;
 }
 
-// Shading time of the perfect lists over this algorithm's: 1 is as good as any list can be. Unknown without
-// exactly one `ideal` case of the setup (a sweep over something that a case does not show makes several).
+// Shading time of the perfect lists over this algorithm's, paired lap by lap and frame by frame: 1 is as good
+// as any list can be. Unknown without exactly one `ideal` case of the setup (a sweep over something that a
+// case does not show makes several).
 std::string efficiency(const std::vector<CaseResult>& cases, const CaseResult& one) {
   const CaseResult* ideal = nullptr;
   for (const CaseResult& other : cases) {
@@ -137,8 +145,24 @@ std::string efficiency(const std::vector<CaseResult>& cases, const CaseResult& o
     ideal = &other;
   }
   if (!ideal) return "-";
-  const double ratio = median_time(shading(*ideal)).value / median_time(shading(one)).value;
-  return std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : "-";
+  auto two_digits = [](double ratio) { return fmt::format("{:.2f}", ratio); };
+  if (ideal == &one) return two_digits(1);
+  return with_spread(paired_ratio(shading(*ideal), shading(one)), two_digits);
+}
+
+// What stands behind the medians, by how many repeats the cases have.
+std::string spread_text(const std::vector<CaseResult>& cases) {
+  bool interval = false;
+  std::set<uint32_t> few;
+  for (const CaseResult& one : cases) {
+    interval |= one.repeats_done >= least_repeats_for_95;
+    if (one.repeats_done > 1 && one.repeats_done < least_repeats_for_95) few.insert(one.repeats_done);
+  }
+  std::string text;
+  if (interval) text += ", [95 % interval]";
+  if (!few.empty())
+    text += fmt::format(", (least..most of n = {} repeats: too few for an interval)", fmt::join(few, ", "));
+  return text;
 }
 
 std::string device_text(const nlohmann::json& context, const char* key) {
@@ -149,20 +173,27 @@ std::string device_text(const nlohmann::json& context, const char* key) {
   return (*device)[key];
 }
 
-std::string footnote(const Result& result, bool any_suspect) {
+std::string footnote(const Result& result, const std::vector<CaseResult>& cases) {
+  auto any = [&](bool CaseResult::*flag) {
+    return std::any_of(cases.begin(), cases.end(), [&](const CaseResult& one) { return one.*flag; });
+  };
   std::string type = device_text(result.context, "type"), name = device_text(result.context, "name");
   std::string driver = device_text(result.context, "driver");
   std::string device = (name.empty() ? "unknown" : name) + (driver.empty() ? "" : ", " + driver);
   std::string text = fmt::format("device: {} ({})\n", device, type.empty() ? "type unknown" : type);
   if (type == "cpu")
     text += "It is a software driver: its times are CPU time of this machine's cores, not a GPU's.\n";
+  text += fmt::format("Times are medians over frames and repeats{}.\n", spread_text(cases));
   text +=
-      "Times are medians over frames and repeats, [95 % interval].\n"
       "Counters are means over frames, per lit pixel; lost: lights that pixels should have got and did not, "
       "in "
       "all.\n"
-      "eff.: shade time of ideal / of this.\n";
-  if (any_suspect)
+      "eff.: shade time of ideal / of this, median over frames of the same laps' ratios.\n";
+  if (any(&CaseResult::invalid))
+    text +=
+        "!! invalid: the counters contradict themselves, or lights are lost; see invalid_note in the "
+        "result.\n";
+  if (any(&CaseResult::timing_suspect))
     text += "! timing suspect: spans, stamps and fence disagree; see timing_note in the result.\n";
   if (!result.complete) text += "The run is not complete.\n";
   return text;
@@ -187,20 +218,19 @@ std::string summary_table(const Result& result, size_t width) {
        "contrib.", "listed", "nodes", "lists", "lost"},
       {"", "", "", "px", "ms (cpu)", unit, unit, "", unit, "/px", "/px", "/px", "/px", "/frame", ""}};
   auto differing = differing_parameters(cases);
-  bool any_suspect = false;
   for (const CaseResult& one : cases) {
-    any_suspect |= one.timing_suspect;
     auto lost = counter_sum(one, "lost");
-    table.rows.push_back({label(one, differing[one.algorithm]) + (one.timing_suspect ? " !" : ""), one.scene,
-                          std::to_string(one.lights), fmt::format("{}x{}", one.width, one.height),
-                          median_and_interval(laps_of(one.cpu_ms, one, "total")), median_ms(culling(one)),
-                          median_and_interval(shading(one)), efficiency(cases, one),
+    table.rows.push_back({label(one, differing[one.algorithm]) + (one.invalid          ? " !!"
+                                                                  : one.timing_suspect ? " !"
+                                                                                       : ""),
+                          one.scene, std::to_string(one.lights), fmt::format("{}x{}", one.width, one.height),
+                          median_and_spread(laps_of(one.cpu_ms, one, "total")), median_ms(culling(one)),
+                          median_and_spread(shading(one)), efficiency(cases, one),
                           median_ms(laps_of(one.gpu_ms, one, "total")), counter_mean(one, "tested"),
                           counter_mean(one, "contributing"), counter_mean(one, "listed"), nodes(one),
                           bytes(one), lost ? fmt::format("{:.0f}", *lost) : "-"});
   }
-  return (width == 0 ? whole_table(table) : folded_table(table, width)) + "\n" +
-         footnote(result, any_suspect);
+  return (width == 0 ? whole_table(table) : folded_table(table, width)) + "\n" + footnote(result, cases);
 }
 
 }  // namespace ml

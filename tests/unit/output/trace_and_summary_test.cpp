@@ -101,8 +101,8 @@ TEST(Summary, SoftwareDriverTimesArePassedOffAsNothingElse) {
 TEST(Summary, ShowsMediansOfTheLapsThatAreDone) {
   std::string table = summary_table(make_result("cpu"));
   std::string line = line_with(table, "clustered");
-  for (const char* part : {"8192", "960x540", "1.250 [1.250 1.250]", "40.00 [40.00 40.00]", "41.00", "11.00",
-                           "2.50", "10.00", "2.0 KiB", " 3", "0.50"})
+  for (const char* part : {"8192", "960x540", "1.250 (1.250..1.250)", "40.00 (40.00..40.00)", "41.00",
+                           "11.00", "2.50", "10.00", "2.0 KiB", " 3", "0.50"})
     EXPECT_TRUE(contains(line, part)) << part << " in " << line;
   EXPECT_FALSE(contains(table, "7777"));
   EXPECT_TRUE(contains(line_with(table, "ideal"), "1.00"));
@@ -135,11 +135,53 @@ TEST(Summary, ShadingIsTheDeferredAndTheForwardPass) {
 TEST(Summary, IntervalsAreOfTheLapsAndNotThereForOne) {
   Result result = make_result("cpu");
   for (uint32_t frame = 0; frame < 2; ++frame) result.cases[0].gpu_ms.set("shade", 1, frame, 50);
-  EXPECT_TRUE(contains(line_with(summary_table(result), "clustered"), "45.00 [40.00 50.00]"));
+  EXPECT_TRUE(contains(line_with(summary_table(result), "clustered"), "45.00 (40.00..50.00)"));
+  EXPECT_TRUE(contains(summary_table(result), "n = 2 repeats"));
+  EXPECT_FALSE(contains(summary_table(result), "95 %"));
   result.cases[0].repeats_done = 1;
   const std::string line = line_with(summary_table(result), "clustered");
   EXPECT_TRUE(contains(line, " 40.00 "));
-  EXPECT_FALSE(contains(line, "["));
+  EXPECT_FALSE(contains(line, "(") || contains(line, "["));
+}
+
+// Of five repeats and more, 95 %.
+TEST(Summary, IntervalsAreClaimedFromFiveRepeatsOn) {
+  Result result = make_result("cpu");
+  for (CaseResult& one : result.cases) {
+    one.repeats_done = 6;
+    one.cpu_ms = one.gpu_ms = SampleTable(6, 2);
+    for (uint32_t repeat = 0; repeat < 6; ++repeat)
+      for (uint32_t frame = 0; frame < 2; ++frame) {
+        one.cpu_ms.set("total", repeat, frame, 1.25);
+        one.gpu_ms.set("shade", repeat, frame, one.algorithm == "ideal" ? 20 : 40);
+      }
+  }
+  const std::string table = summary_table(result);
+  EXPECT_TRUE(contains(line_with(table, "clustered"), "40.00 [40.00 40.00]")) << table;
+  EXPECT_TRUE(contains(line_with(table, "clustered"), "0.50 [0.50 0.50]")) << table;
+  EXPECT_TRUE(contains(table, "[95 % interval]"));
+  EXPECT_FALSE(contains(table, "n = "));
+}
+
+// Laps in which the machine is slow are slow for both: the ratio does not see it.
+TEST(Summary, EfficiencyIsPairedByLap) {
+  Result result = make_result("cpu");
+  for (uint32_t repeat = 0; repeat < 2; ++repeat)
+    for (uint32_t frame = 0; frame < 2; ++frame) {
+      const double drift = 1 + repeat + 4 * frame;
+      result.cases[0].gpu_ms.set("shade", repeat, frame, 40 * drift);
+      result.cases[1].gpu_ms.set("shade", repeat, frame, 30 * drift);
+    }
+  EXPECT_TRUE(contains(line_with(summary_table(result), "clustered"), "0.75 (0.75..0.75)"));
+}
+
+TEST(Summary, MarksInvalidCases) {
+  Result result = make_result("cpu");
+  EXPECT_FALSE(contains(summary_table(result), "invalid"));
+  result.cases[0].invalid = true;
+  const std::string table = summary_table(result);
+  EXPECT_TRUE(contains(line_with(table, "clustered"), "clustered !!"));
+  EXPECT_TRUE(contains(table, "invalid_note"));
 }
 
 TEST(Summary, NodesStandWhereThereAreTrees) {
@@ -184,7 +226,7 @@ TEST(Summary, FoldsToTheWidthOfATerminalAndLeavesNothingOut) {
     EXPECT_TRUE(contains(table, "lights 65536")) << table;
   }
   // One column needs more than there is: it gets it.
-  EXPECT_TRUE(contains(summary_table(result, 1), "1.250 [1.250 1.250]"));
+  EXPECT_TRUE(contains(summary_table(result, 1), "1.250 (1.250..1.250)"));
 }
 
 TEST(Summary, EfficiencyNeedsTheIdealOfTheSameSetup) {
