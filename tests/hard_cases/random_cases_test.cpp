@@ -1,35 +1,65 @@
 // Random cameras, lights, algorithms and parameters: exactly the lights of brute force are evaluated, at
 // every pixel of every case.
+#include <fmt/format.h>
+
 #include "tests/hard_cases/random_frames.h"
 
 namespace ml::test {
 namespace {
 
-void expect_random_cases(uint32_t width, uint32_t height, uint32_t cases, uint32_t seed) {
-  Effects effects = all_shapes();
-  effects.texel_fetch = width % 2 == 0;
-  effects.any_subgroup_size = height % 2 != 0;
-  effects.test_ahead = width % 3 == 1;
-  Exactness check(yard(), width, height, effects);
-  for_random_frames(width, height, cases, seed,
-                    [&](Random& random, const Camera& camera, const std::vector<Light>& lights) {
-                      const std::vector<Trial> trials{random_trial(random, width, height),
-                                                      random_trial(random, width, height)};
-                      return check.expect_trials(camera, lights, trials, 0).contributing();
-                    });
+// One test each, so that none takes long.
+struct Part {
+  const char* name;
+  uint32_t width, height, cases, seed;
+  uint32_t most;  // lights
+};
+
+class RandomCases : public HardCases, public testing::WithParamInterface<Part> {};
+
+TEST_P(RandomCases, EvaluateTheLightsOfBruteForce) {
+  const Part& part = GetParam();
+  Effects effects = all_shapes(part.most > Effects::most_turns);
+  effects.texel_fetch = part.width % 2 == 0;
+  effects.any_subgroup_size = part.height % 2 != 0;
+  effects.test_ahead = part.width % 3 == 1;
+  Exactness check(yard(), part.width, part.height, effects);
+  for_random_frames(
+      part.width, part.height, part.cases, part.seed,
+      [&](Random& random, const Camera& camera, const std::vector<Light>& lights) {
+        const std::vector<Trial> trials{random_trial(random, part.width, part.height),
+                                        random_trial(random, part.width, part.height)};
+        return check.expect_trials(camera, lights, trials, 0).contributing();
+      },
+      part.most);
 }
 
-TEST_F(HardCases, RandomCasesOfAnOrdinaryPicture) {
-  expect_random_cases(64, 36, 250, 1);
+// Pictures that are usual, odd, and next to nothing.
+std::vector<Part> few_lights() {
+  std::vector<Part> parts;
+  for (uint32_t seed = 1; seed <= 10; ++seed) {
+    parts.push_back({"Ordinary", 64, 36, 25, seed, 400});
+    parts.push_back({"Odd", 37, 53, 25, 100 + seed, 400});
+    parts.push_back({"Tiny", 5, 3, 25, 200 + seed, 400});
+  }
+  return parts;
 }
 
-TEST_F(HardCases, RandomCasesOfAnOddPicture) {
-  expect_random_cases(37, 53, 250, 2);
+// Whatever number of lights there is, up to beyond what 16 bits count.
+std::vector<Part> many_lights() {
+  std::vector<Part> parts;
+  for (uint32_t seed = 1; seed <= 4; ++seed) {
+    parts.push_back({"Ordinary", 64, 36, 8, 300 + seed, 70'000});
+    parts.push_back({"Tiny", 5, 3, 16, 400 + seed, 70'000});
+  }
+  return parts;
 }
 
-TEST_F(HardCases, RandomCasesOfATinyPicture) {
-  expect_random_cases(5, 3, 250, 3);
+std::string name_of(const testing::TestParamInfo<Part>& info) {
+  return fmt::format("{}{}", info.param.name, info.param.seed);
 }
+
+INSTANTIATE_TEST_SUITE_P(FewLights, RandomCases, testing::ValuesIn(few_lights()), name_of);
+INSTANTIATE_TEST_SUITE_P(ManyLights, RandomCases, testing::ValuesIn(many_lights()), name_of);
 
 }  // namespace
 }  // namespace ml::test

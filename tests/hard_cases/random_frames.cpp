@@ -35,13 +35,15 @@ Camera random_camera(Random& random, uint32_t width, uint32_t height) {
   return Camera::look_at(eye, target, projection);
 }
 
-std::vector<Light> random_lights(Random& random, const Camera& camera) {
-  const uint32_t counts[] = {0, 1, 17, 64, 200, 400};
-  const uint32_t count = counts[random.below(6)];
+std::vector<Light> random_lights(Random& random, const Camera& camera, uint32_t most) {
+  // Every number of lights, small ones as often as large ones; many are smaller, so that as many reach a
+  // pixel.
+  const auto count = static_cast<uint32_t>(log_uniform(random, 1, static_cast<float>(most) + 1.5f)) - 1;
+  const float largest = 40 * std::cbrt(std::min(1.0f, 400 / (static_cast<float>(count) + 1)));
   std::vector<Light> lights =
       random.below(2)
-          ? scattered(count, {-40, -2, -45}, {40, 15, 30}, 0.02f, 40, random.next(), 1 + random.below(4))
-          : mixed_shapes(count, {-40, -2, -45}, {40, 15, 30}, 0.02f, 40, random.next());
+          ? scattered(count, {-40, -2, -45}, {40, 15, 30}, 0.02f, largest, random.next(), 1 + random.below(4))
+          : mixed_shapes(count, {-40, -2, -45}, {40, 15, 30}, 0.02f, largest, random.next());
   // Some at and behind the camera, with the eye inside or just outside.
   for (uint32_t i = random.below(20); i > 0; --i) {
     const glm::vec3 off = (camera.forward * random.uniform(-1, 1) + camera.right * random.uniform(-1, 1) +
@@ -54,13 +56,13 @@ std::vector<Light> random_lights(Random& random, const Camera& camera) {
 }
 
 void for_random_frames(uint32_t width, uint32_t height, uint32_t cases, uint32_t seed,
-                       const CheckFrame& check) {
+                       const CheckFrame& check, uint32_t most) {
   uint64_t contributing = 0;
   for (uint32_t number = 0; number < cases && !testing::Test::HasFailure(); ++number) {
     SCOPED_TRACE(fmt::format("{}x{}, seed {}, case {}", width, height, seed, number));
     Random random(hash_u32(seed, number));
     const Camera camera = random_camera(random, width, height);
-    const std::vector<Light> lights = random_lights(random, camera);
+    const std::vector<Light> lights = random_lights(random, camera, most);
     contributing += check(random, camera, lights);
   }
   EXPECT_GT(contributing, uint64_t{cases} * width * height / 20)

@@ -9,7 +9,7 @@
 #include "harness/accuracy/image_metrics.h"
 #include "harness/base/random.h"
 #include "harness/bench/case_pictures.h"
-#include "harness/bench/verify.h"
+#include "harness/bench/picture_proof.h"
 #include "harness/scene/light_set.h"
 
 namespace ml::test {
@@ -91,25 +91,12 @@ ParameterValue random_value(const ParameterInfo& info, Random& random) {
   return static_cast<int64_t>(std::clamp(std::round(value), info.minimum, info.maximum));
 }
 
-double floor_of(const Picture& picture) {
-  double sum = 0;
-  for (float value : picture.data) sum += static_cast<double>(value);
-  return std::max(image_floor * sum / static_cast<double>(picture.data.size()), 1e-30);
-}
-
 // Pixels whose count or set of contributing lights is not the reference's.
 uint64_t mismatches(const PixelCounts& counts, const ContributingLights& truth) {
   uint64_t wrong = 0;
   for (size_t i = 0; i < truth.count.size(); ++i)
     wrong += counts.contributing[i] != truth.count[i] || counts.hash[i] != truth.hash[i];
   return wrong;
-}
-
-void expect_same_image(const Picture& image, const Picture& reference, double floor) {
-  ImageDifference difference = compare_images(image, reference, floor);
-  EXPECT_LE(difference.max_relative, image_tolerance)
-      << "at " << difference.worst_x << ", " << difference.worst_y;
-  EXPECT_EQ(difference.not_finite, 0u);
 }
 
 }  // namespace
@@ -212,24 +199,35 @@ Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& li
   seen.image = result_picture(frame_);
   EXPECT_EQ(mismatches(read_counts(frame_), seen.truth), 0u) << "pixels, brute_force";
   EXPECT_EQ(compare_images(seen.image, seen.image).not_finite, 0u) << "brute_force";
-  const double floor = floor_of(seen.image);
 
   ideal_.prepare(input_, spans, frame_.seen_blocks().places());
   ideal_.count(frame_, input_);
   {
     SCOPED_TRACE("ideal");
     EXPECT_EQ(mismatches(read_counts(frame_), seen.truth), 0u) << "pixels";
-    expect_same_image(result_picture(frame_), seen.image, floor);
+    expect_same_image(result_picture(frame_), seen);
   }
   for (const Trial& trial : trials) {
     SCOPED_TRACE(trial.text());
-    expect_trial(trial, seen, floor);
+    expect_trial(trial, seen);
   }
-  if (oracle_points) expect_oracle(seen, oracle_points, floor);
+  if (oracle_points) expect_oracle(seen, oracle_points);
   return seen;
 }
 
-void Exactness::expect_trial(const Trial& trial, Seen& seen, double floor) {
+void Exactness::expect_same_image(const Picture& image, const Seen& seen) {
+  const ImageDifference difference = compare_images(image, seen.image, 1e-30);
+  EXPECT_EQ(difference.not_finite, 0u);
+  if (difference.max_relative <= plain_rounding) return;
+  const OracleFrame oracle(frame_, input_);
+  PictureJudge judge(oracle, frame_.effects().specular, seen.truth.count);
+  PictureProof proof;
+  for (size_t pixel = 0; pixel < seen.lit.size(); ++pixel)
+    judge.against_each_other(image, seen.image, pixel, seen.lit[pixel] != 0, proof);
+  EXPECT_EQ(proof.wrong, 0u) << proof.evidence("pixels");
+}
+
+void Exactness::expect_trial(const Trial& trial, Seen& seen) {
   Slot& slot = slot_of(trial);
   ShadedAlgorithm& algorithm = *slot.shaded;
   Spans spans;
@@ -244,9 +242,8 @@ void Exactness::expect_trial(const Trial& trial, Seen& seen, double floor) {
   EXPECT_EQ(frame.prepare.overflow_tiles, 0u);
   EXPECT_EQ(frame.prepare.overflow_lights, 0u);
   EXPECT_LE(frame.prepare.in_frustum, input_.lights.count());
-  for (size_t i = 0; i < seen.lit.size(); ++i)
-    ASSERT_LE(counts.listed[i], input_.lights.count()) << "pixel " << i;
-  expect_same_image(image, seen.image, floor);
+  EXPECT_EQ(miscounted(algorithm.info(), counts, seen.truth, seen.lit, input_.lights.count()), "");
+  expect_same_image(image, seen);
 
   // Again, with the timed program, and prepared anew by other numbers of threads.
   algorithm.shade(frame_, input_, gpu::Timing::none);
@@ -269,25 +266,23 @@ void Exactness::expect_trial(const Trial& trial, Seen& seen, double floor) {
   seen.prepared.push_back(frame.prepare);
 }
 
-void Exactness::expect_oracle(const Seen& seen, uint32_t points, double floor) {
+void Exactness::expect_oracle(const Seen& seen, uint32_t points) {
   std::vector<size_t> lit;
   for (size_t i = 0; i < seen.lit.size(); ++i)
     if (seen.lit[i]) lit.push_back(i);
   ASSERT_FALSE(lit.empty()) << "the camera sees no surface";
-  OracleFrame oracle(frame_, input_);
+  const OracleFrame oracle(frame_, input_);
+  PictureJudge judge(oracle, frame_.effects().specular, seen.truth.count);
+  PictureProof proof;
   for (uint32_t n = 0; n < std::min<size_t>(points, lit.size()); ++n) {
     const size_t pixel = lit[(2 * size_t{n} + 1) * lit.size() / (2 * std::min<size_t>(points, lit.size()))];
-    OracleAnswer answer = oracle_shade(oracle.point(pixel), oracle.lights(), frame_.effects().specular);
+    const OracleAnswer& answer = judge.answer(pixel);
     const uint32_t count = seen.truth.count[pixel];
     EXPECT_LE(std::max(count, answer.contributing) - std::min(count, answer.contributing), answer.marginal)
         << "pixel " << pixel;
-    for (int channel = 0; channel < 3; ++channel) {
-      const double truth = answer.radiance[channel],
-                   value = static_cast<double>(seen.image.data[3 * pixel + static_cast<size_t>(channel)]);
-      EXPECT_NEAR(value, truth, 1e-3 * std::max(std::abs(truth), floor))
-          << "pixel " << pixel << ", channel " << channel;
-    }
+    judge.against_truth(seen.image, pixel, proof);
   }
+  EXPECT_EQ(proof.wrong, 0u) << proof.evidence("points");
 }
 
 std::vector<Trial> every_algorithm() {

@@ -17,6 +17,10 @@
 
 namespace ml::test {
 
+// Of pictures that are not compared point by point: so far apart, relative to the value or to this part of
+// the picture's mean, are two sums of the same lights in another order.
+inline constexpr double image_tolerance = 1e-4, image_floor = 1e-4;
+
 // Parameters of the algorithms that have a grid, named as in a configuration.
 struct GridSettings {
   int64_t tile = 24, slices = 16;
@@ -87,8 +91,10 @@ class Exactness {
     std::unique_ptr<ShadedAlgorithm> shaded;
   };
   Slot& slot_of(const Trial& trial);
-  void expect_trial(const Trial& trial, Seen& seen, double floor);
-  void expect_oracle(const Seen& seen, uint32_t points, double floor);
+  // Of the frame at hand: equal to brute force's within what rounding makes at each pixel.
+  void expect_same_image(const Picture& image, const Seen& seen);
+  void expect_trial(const Trial& trial, Seen& seen);
+  void expect_oracle(const Seen& seen, uint32_t points);
 
   DeviceFrame frame_;
   ShadedAlgorithm brute_, ideal_;
