@@ -21,9 +21,14 @@ double TimeLeft::seconds_left() const {
     took += sums.took;
   }
   const double usual = done > 0 ? took / done : 1;
+  // The first step of a kind alone may be an odd one: some of the others' experience stands beside it.
+  constexpr double others = 0.005;
   double left = 0;
-  for (const Sums& sums : kinds_)
-    left += std::max(0.0, sums.planned - sums.done) * (sums.done > 0 ? sums.took / sums.done : usual);
+  for (const Sums& sums : kinds_) {
+    if (sums.planned <= sums.done) continue;
+    const double experience = others * sums.planned;
+    left += (sums.planned - sums.done) * (sums.took + experience * usual) / (sums.done + experience);
+  }
   return left;
 }
 

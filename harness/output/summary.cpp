@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -137,17 +138,21 @@ bool same_setup(const CaseResult& a, const CaseResult& b) {
 // Shading time of the perfect lists over this algorithm's, paired lap by lap and frame by frame: 1 is as good
 // as any list can be. Unknown without exactly one `ideal` case of the setup (a sweep over something that a
 // case does not show makes several).
-std::string efficiency(const std::vector<CaseResult>& cases, const CaseResult& one) {
+Interval efficiency(const std::vector<CaseResult>& cases, const CaseResult& one) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const CaseResult* ideal = nullptr;
   for (const CaseResult& other : cases) {
     if (other.algorithm != "ideal" || !same_setup(one, other)) continue;
-    if (ideal) return "-";
+    if (ideal) return {unknown, unknown, unknown, 0};
     ideal = &other;
   }
-  if (!ideal) return "-";
-  auto two_digits = [](double ratio) { return fmt::format("{:.2f}", ratio); };
-  if (ideal == &one) return two_digits(1);
-  return with_spread(paired_ratio(shading(*ideal), shading(one)), two_digits);
+  if (!ideal) return {unknown, unknown, unknown, 0};
+  if (ideal == &one) return {1, 1, 1, 0};
+  return paired_ratio(shading(*ideal), shading(one));
+}
+
+std::string two_digits(double ratio) {
+  return fmt::format("{:.2f}", ratio);
 }
 
 // What stands behind the medians, by how many repeats the cases have.
@@ -189,6 +194,12 @@ std::string footnote(const Result& result, const std::vector<CaseResult>& cases)
       "in "
       "all.\n"
       "eff.: shade time of ideal / of this, median over frames of the same laps' ratios.\n";
+  // Beyond rounding and beyond the spread of the laps.
+  if (std::any_of(cases.begin(), cases.end(),
+                  [&](const CaseResult& one) { return efficiency(cases, one).low > 1.005; }))
+    text +=
+        "eff. above 1: ideal walks pixel by pixel, and is no bound for pixels that fetch their lights "
+        "together.\n";
   if (any(&CaseResult::invalid))
     text +=
         "!! invalid: the counters contradict themselves, or lights are lost; see invalid_note in the "
@@ -225,7 +236,7 @@ std::string summary_table(const Result& result, size_t width) {
                                                                                        : ""),
                           one.scene, std::to_string(one.lights), fmt::format("{}x{}", one.width, one.height),
                           median_and_spread(laps_of(one.cpu_ms, one, "total")), median_ms(culling(one)),
-                          median_and_spread(shading(one)), efficiency(cases, one),
+                          median_and_spread(shading(one)), with_spread(efficiency(cases, one), two_digits),
                           median_ms(laps_of(one.gpu_ms, one, "total")), counter_mean(one, "tested"),
                           counter_mean(one, "contributing"), counter_mean(one, "listed"), nodes(one),
                           bytes(one), lost ? fmt::format("{:.0f}", *lost) : "-"});

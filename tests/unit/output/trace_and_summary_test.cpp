@@ -175,6 +175,16 @@ TEST(Summary, EfficiencyIsPairedByLap) {
   EXPECT_TRUE(contains(line_with(summary_table(result), "clustered"), "0.75 (0.75..0.75)"));
 }
 
+// `ideal` walks pixel by pixel: where others walk together it is no bound, and the table says so.
+TEST(Summary, SaysWhereIdealIsNoBound) {
+  Result result = make_result("cpu");
+  EXPECT_FALSE(contains(summary_table(result), "no bound"));
+  for (uint32_t repeat = 0; repeat < 2; ++repeat)
+    for (uint32_t frame = 0; frame < 2; ++frame) result.cases[0].gpu_ms.set("shade", repeat, frame, 19);
+  EXPECT_TRUE(contains(line_with(summary_table(result), "clustered"), "1.05 (1.05..1.05)"));
+  EXPECT_TRUE(contains(summary_table(result), "no bound"));
+}
+
 TEST(Summary, MarksInvalidCases) {
   Result result = make_result("cpu");
   EXPECT_FALSE(contains(summary_table(result), "invalid"));
