@@ -36,10 +36,10 @@ TEST_P(RandomCases, EvaluateTheLightsOfBruteForce) {
 // Pictures that are usual, odd, and next to nothing.
 std::vector<Part> few_lights() {
   std::vector<Part> parts;
-  for (uint32_t seed = 1; seed <= 10; ++seed) {
-    parts.push_back({"Ordinary", 64, 36, 25, seed, 400});
-    parts.push_back({"Odd", 37, 53, 25, 100 + seed, 400});
-    parts.push_back({"Tiny", 5, 3, 25, 200 + seed, 400});
+  for (uint32_t seed = 1; seed <= 20; ++seed) {
+    parts.push_back({"Ordinary", 64, 36, 12, seed, 400});
+    parts.push_back({"Odd", 37, 53, 12, 100 + seed, 400});
+    parts.push_back({"Tiny", 5, 3, 12, 200 + seed, 400});
   }
   return parts;
 }
@@ -47,9 +47,9 @@ std::vector<Part> few_lights() {
 // Whatever number of lights there is, up to beyond what 16 bits count.
 std::vector<Part> many_lights() {
   std::vector<Part> parts;
-  for (uint32_t seed = 1; seed <= 4; ++seed) {
-    parts.push_back({"Ordinary", 64, 36, 8, 300 + seed, 70'000});
-    parts.push_back({"Tiny", 5, 3, 16, 400 + seed, 70'000});
+  for (uint32_t seed = 1; seed <= 8; ++seed) {
+    parts.push_back({"Ordinary", 64, 36, 4, 300 + seed, 70'000});
+    parts.push_back({"Tiny", 5, 3, 8, 400 + seed, 70'000});
   }
   return parts;
 }
