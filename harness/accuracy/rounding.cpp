@@ -51,9 +51,9 @@ SourceSight see_source(const SurfacePoint& point, const OracleLight& light, cons
       u * std::max({place.x, place.y, place.z}) + (light.half_length > 0 ? 8 : 1) * u * whole;
   const bool touching = sight.distance < coincident;
   sight.to_light = touching ? point.normal : offset / sight.distance;
-  sight.turn = touching ? normal_error : sight.distance_error / sight.distance + 2 * u;
-  if (std::abs(sight.distance - coincident) <= sight.distance_error) sight.turn = any_direction;
-  sight.turn = std::min(sight.turn, any_direction);
+  sight.rotation = touching ? normal_error : sight.distance_error / sight.distance + 2 * u;
+  if (std::abs(sight.distance - coincident) <= sight.distance_error) sight.rotation = any_direction;
+  sight.rotation = std::min(sight.rotation, any_direction);
   if (touching) sight.distance = 0;
   return sight;
 }
@@ -77,27 +77,27 @@ Range inverse_square_range(const SourceSight& sight) {
 Range cone_range(const SourceSight& sight, const OracleLight& light, double off_axis) {
   if (!light.spot) return {1, 1};
   // As half the square of the chord between the two directions.
-  const double chord = std::sqrt(2 * std::max(0.0, off_axis)), chord_error = sight.turn + 4 * u;
+  const double chord = std::sqrt(2 * std::max(0.0, off_axis)), chord_error = sight.rotation + 4 * u;
   const double error = chord * chord_error + 0.5 * squared(chord_error) + 4 * stretch * off_axis;
   const double factor = (light.cone_limit - off_axis) * light.cone_scale;
   return Range::around(factor, light.cone_scale * error + 4 * u * std::abs(factor), 0, 1);
 }
 
 Range facing_range(const SourceSight& sight, double cosine) {
-  return Range::around(cosine, sight.turn + normal_error + 4 * u + stretch * std::abs(cosine), 0, 1);
+  return Range::around(cosine, sight.rotation + normal_error + 4 * u + stretch * std::abs(cosine), 0, 1);
 }
 
 HighlightRange highlight_range(const SurfacePoint& point, const SourceSight& sight,
                                const glm::dvec3& to_viewer, const Range& facing) {
   const glm::dvec3 sum = sight.to_light + to_viewer;
-  const double length = glm::length(sum), sum_error = sight.turn + viewer_error + 2 * stretch;
-  const double turn = length > 0 ? std::min(sum_error / length + 4 * u, any_direction) : any_direction;
+  const double length = glm::length(sum), sum_error = sight.rotation + viewer_error + 2 * stretch;
+  const double rotation = length > 0 ? std::min(sum_error / length + 4 * u, any_direction) : any_direction;
   const glm::dvec3 half = length > 0 ? sum / length : point.normal;
 
   const double rough = std::max(point.roughness, 0.045), alpha2 = squared(squared(rough));
   const Range sine =
-      Range::around(glm::length(glm::cross(point.normal, half)), turn + normal_error + 4 * u, 0, 1);
-  const Range cosine = Range::around(glm::dot(point.normal, half), turn + normal_error + 4 * u, 0, 1);
+      Range::around(glm::length(glm::cross(point.normal, half)), rotation + normal_error + 4 * u, 0, 1);
+  const Range cosine = Range::around(glm::dot(point.normal, half), rotation + normal_error + 4 * u, 0, 1);
   const Range spread = alpha2 * (cosine * cosine) + sine * sine;
   auto distribution = [&](double lobe) { return alpha2 / (std::numbers::pi * squared(lobe)); };
   const Range viewed = Range::around(std::abs(glm::dot(point.normal, to_viewer)),
@@ -107,7 +107,7 @@ HighlightRange highlight_range(const SurfacePoint& point, const SourceSight& sig
                   nv * std::sqrt(nl * nl * (1 - alpha2) + alpha2));
   };
   const Range aslant =
-      Range::around(1 - std::clamp(glm::dot(to_viewer, half), 0.0, 1.0), turn + viewer_error, 0, 1);
+      Range::around(1 - std::clamp(glm::dot(to_viewer, half), 0.0, 1.0), rotation + viewer_error, 0, 1);
 
   HighlightRange range;
   range.lobe = (Range{distribution(spread.high), distribution(spread.low)} *

@@ -23,9 +23,9 @@ struct SourceSight {
   glm::dvec3 to_light;    // unit, to the nearest point of the source
   double distance;        // m
   double distance_error;  // m
-  // rad, by which the direction may be off: lengths that are off, by `stretch`, do not turn it. 2: it may be
-  // any.
-  double turn;
+  // rad, by which the direction may be off: lengths that are off, by `stretch`, do not rotate it. 2: it may
+  // be any.
+  double rotation;
 };
 
 // `from_centre`: the point as the light's centre sees it; `along`: m, from the centre to the nearest point of

@@ -14,7 +14,7 @@ namespace ml {
 // Into each case of the setup: where its lights went, and the notes of its scene.
 void keep_books(const Workload& workload, CaseResult& result);
 
-// Prints to stderr, each line behind the level's name: where the lights went; what the level asks for and
+// Prints to stderr, each line after the level's name: where the lights went; what the level asks for and
 // does not get; and in how many of `frames` frames no surface is seen, where there are any.
 void tell_books(const Setup& setup, const Workload& workload, uint32_t unseen, uint32_t frames);
 

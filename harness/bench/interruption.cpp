@@ -28,7 +28,7 @@ std::timed_mutex writing;
   const bool quiet = writing.try_lock_for(write_grace);
   static_cast<void>(quiet);  // after that time it ends anyway
   if (may_tell_of_interruption()) {
-    // Behind a line of progress, if the terminal shows one.
+    // After a line of progress, if the terminal shows one.
     const std::string line = fmt::format("{}manylights: {}\n", isatty(STDERR_FILENO) ? "\n" : "", message);
     if (write(STDERR_FILENO, line.data(), line.size()) < 0) _exit(static_cast<int>(ExitCode::interrupted));
   }

@@ -174,8 +174,8 @@ Result run_config(const Config& config, const RunOptions& options) {
     scene_spec = setup.scene;
     std::vector<CaseSeconds> expected;
     for (const Case& item : group) expected.push_back(case_seconds(config, item, group));
-    auto step = [&](StepKind kind, size_t place, const std::string& what) {
-      progress.advance(kind, expected_seconds(expected[place], kind), what);
+    auto step = [&](StepKind kind, size_t item, const std::string& what) {
+      progress.advance(kind, expected_seconds(expected[item], kind), what);
     };
     auto settle = [&] {
       for (CaseResult& item : run.results())

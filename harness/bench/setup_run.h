@@ -21,8 +21,8 @@ class SetupRun {
   SetupRun(gpu::Device& device, const Config& config, const std::vector<Case>& cases,
            std::shared_ptr<const Scene> scene, RunLog& log);
 
-  // Every step calls `done` with the place of its case among `cases`.
-  using Step = std::function<void(StepKind kind, size_t place, const std::string& what)>;
+  // Every step calls `done` with the index of its case among `cases`.
+  using Step = std::function<void(StepKind kind, size_t index, const std::string& what)>;
   // Also tells on stderr, where `tell`, what the level brings and what of it is used. UsageError when no
   // frame sees a surface.
   void counting_lap(const Step& done, bool tell);

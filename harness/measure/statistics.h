@@ -16,7 +16,7 @@ double quantile(std::span<const double> samples, double p);
 
 // From so many repeats on an interval is one of 95 %. With fewer, resampling reaches no such claim: three
 // laps cover the truth in three of four cases at best.
-inline constexpr size_t least_repeats_for_95 = 5;
+inline constexpr size_t min_repeats_for_95 = 5;
 
 // low <= value <= high, or all three NaN when nothing can be said. With one repeat all three are the value:
 // one lap tells nothing about its own spread.
@@ -24,7 +24,7 @@ struct Interval {
   double value = 0, low = 0, high = 0;
   size_t repeats = 0;
   // Else `low` and `high` are the least and the largest of the single repeats.
-  bool is_95() const { return repeats >= least_repeats_for_95; }
+  bool is_95() const { return repeats >= min_repeats_for_95; }
 };
 
 // Median over all repeats and frames; the interval as below. `samples` is [repeat][frame].

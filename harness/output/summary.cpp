@@ -160,13 +160,13 @@ std::string spread_text(const std::vector<CaseResult>& cases) {
   bool interval = false;
   std::set<uint32_t> few;
   for (const CaseResult& one : cases) {
-    interval |= one.repeats_done >= least_repeats_for_95;
-    if (one.repeats_done > 1 && one.repeats_done < least_repeats_for_95) few.insert(one.repeats_done);
+    interval |= one.repeats_done >= min_repeats_for_95;
+    if (one.repeats_done > 1 && one.repeats_done < min_repeats_for_95) few.insert(one.repeats_done);
   }
   std::string text;
   if (interval) text += ", [95 % interval]";
   if (!few.empty())
-    text += fmt::format(", (least..most of n = {} repeats: too few for an interval)", fmt::join(few, ", "));
+    text += fmt::format(", (min..max of n = {} repeats: too few for an interval)", fmt::join(few, ", "));
   return text;
 }
 
@@ -198,7 +198,7 @@ std::string footnote(const Result& result, const std::vector<CaseResult>& cases)
   if (std::any_of(cases.begin(), cases.end(),
                   [&](const CaseResult& one) { return efficiency(cases, one).low > 1.005; }))
     text +=
-        "eff. above 1: ideal walks pixel by pixel, and is no bound for pixels that fetch their lights "
+        "eff. above 1: ideal goes pixel by pixel, and is no bound for pixels that fetch their lights "
         "together.\n";
   if (any(&CaseResult::invalid))
     text +=

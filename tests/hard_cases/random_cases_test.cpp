@@ -11,14 +11,14 @@ namespace {
 struct Part {
   const char* name;
   uint32_t width, height, cases, seed;
-  uint32_t most;  // lights
+  uint32_t max_lights;
 };
 
 class RandomCases : public HardCases, public testing::WithParamInterface<Part> {};
 
 TEST_P(RandomCases, EvaluateTheLightsOfBruteForce) {
   const Part& part = GetParam();
-  Effects effects = all_shapes(part.most > Effects::most_turns);
+  Effects effects = all_shapes(part.max_lights > Effects::most_turns);
   effects.texel_fetch = part.width % 2 == 0;
   effects.any_subgroup_size = part.height % 2 != 0;
   effects.test_ahead = part.width % 3 == 1;
@@ -30,7 +30,7 @@ TEST_P(RandomCases, EvaluateTheLightsOfBruteForce) {
                                         random_trial(random, part.width, part.height)};
         return check.expect_trials(camera, lights, trials, 0).contributing();
       },
-      part.most);
+      part.max_lights);
 }
 
 // Pictures that are usual, odd, and next to nothing.

@@ -35,10 +35,10 @@ Camera random_camera(Random& random, uint32_t width, uint32_t height) {
   return Camera::look_at(eye, target, projection);
 }
 
-std::vector<Light> random_lights(Random& random, const Camera& camera, uint32_t most) {
+std::vector<Light> random_lights(Random& random, const Camera& camera, uint32_t max_lights) {
   // Every number of lights, small ones as often as large ones; many are smaller, so that as many reach a
   // pixel.
-  const auto count = static_cast<uint32_t>(log_uniform(random, 1, static_cast<float>(most) + 1.5f)) - 1;
+  const auto count = static_cast<uint32_t>(log_uniform(random, 1, static_cast<float>(max_lights) + 1.5f)) - 1;
   const float largest = 40 * std::cbrt(std::min(1.0f, 400 / (static_cast<float>(count) + 1)));
   std::vector<Light> lights =
       random.below(2)
@@ -56,13 +56,13 @@ std::vector<Light> random_lights(Random& random, const Camera& camera, uint32_t 
 }
 
 void for_random_frames(uint32_t width, uint32_t height, uint32_t cases, uint32_t seed,
-                       const CheckFrame& check, uint32_t most) {
+                       const CheckFrame& check, uint32_t max_lights) {
   uint64_t contributing = 0;
   for (uint32_t number = 0; number < cases && !testing::Test::HasFailure(); ++number) {
     SCOPED_TRACE(fmt::format("{}x{}, seed {}, case {}", width, height, seed, number));
     Random random(hash_u32(seed, number));
     const Camera camera = random_camera(random, width, height);
-    const std::vector<Light> lights = random_lights(random, camera, most);
+    const std::vector<Light> lights = random_lights(random, camera, max_lights);
     contributing += check(random, camera, lights);
   }
   EXPECT_GT(contributing, uint64_t{cases} * width * height / 20)

@@ -175,7 +175,7 @@ TEST(Summary, EfficiencyIsPairedByLap) {
   EXPECT_TRUE(contains(line_with(summary_table(result), "clustered"), "0.75 (0.75..0.75)"));
 }
 
-// `ideal` walks pixel by pixel: where others walk together it is no bound, and the table says so.
+// `ideal` goes pixel by pixel: where others go together it is no bound, and the table says so.
 TEST(Summary, SaysWhereIdealIsNoBound) {
   Result result = make_result("cpu");
   EXPECT_FALSE(contains(summary_table(result), "no bound"));
