@@ -1,11 +1,12 @@
 // Writes what the shading loop sees of every pixel, for checking with other programs: KIND 0 position, 1 normal, 2 albedo, 3 material
-// (roughness, metallic), each with the view depth in the fourth channel (0: sky).
+// (roughness, metallic), 4 emission, each with the view depth in the fourth channel (0: sky).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint KIND = 0u;
+layout(binding = BIND_EMISSION) uniform sampler2D Emission;
 layout(rgba32f, binding = BIND_RESULT) writeonly uniform image2D Result;
 
 void main() {
@@ -18,6 +19,7 @@ void main() {
     if (KIND == 1u) value.xyz = point.normal;
     if (KIND == 2u) value.xyz = point.albedo;
     if (KIND == 3u) value.xy = vec2(point.roughness, point.metallic);
+    if (KIND == 4u) value.xyz = texelFetch(Emission, ivec2(pixel), 0).rgb;
     value.w = point.depth;
   }
   imageStore(Result, ivec2(pixel), value);

@@ -1,4 +1,4 @@
-// Binding numbers of the shared resources. The C++ side binds by name, found by reflection; algorithms use 16 and up.
+// Binding numbers of the shared resources. The C++ side binds by name, found by reflection; algorithms use 16 to 23.
 #ifndef ML_BINDINGS_GLSL
 #define ML_BINDINGS_GLSL
 #extension GL_EXT_scalar_block_layout : require
@@ -19,6 +19,11 @@
 #define BIND_FORWARD 13
 #define BIND_BASE_COLOR 14
 #define BIND_SPECULAR 15
+#define BIND_EMISSION 24            // light that surfaces give by themselves
+#define BIND_DETAILS 25             // of vertices
+#define BIND_METALLIC_ROUGHNESS 26  // textures of the mesh that is drawn
+#define BIND_NORMAL_MAP 27
+#define BIND_EMISSION_MAP 28
 #define BIND_QUADS 32    // added to a buffer's number: the same buffer as texels of four words, bound by its name with "Quads" behind
 #define BIND_DIFFUSE 16  // of a pass that has no algorithm in it
 

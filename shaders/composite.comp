@@ -4,6 +4,8 @@
 #include "shaders/surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 14) const bool EFFECT_EMISSION = false;
+layout(binding = BIND_EMISSION) uniform sampler2D Emission;
 layout(rgba32f, binding = BIND_RESULT) writeonly uniform image2D Result;
 layout(rgba32f, binding = BIND_SPECULAR) readonly uniform image2D Specular;
 layout(rgba32f, binding = BIND_DIFFUSE) readonly uniform image2D Diffuse;
@@ -14,5 +16,6 @@ void main() {
   // The sky has no albedo, and no light either.
   vec3 albedo = surface_albedo(texelFetch(Surface, ivec2(pixel), 0).y);
   vec3 light = albedo * imageLoad(Diffuse, ivec2(pixel)).rgb + imageLoad(Specular, ivec2(pixel)).rgb;
+  if (EFFECT_EMISSION) light += texelFetch(Emission, ivec2(pixel), 0).rgb;
   imageStore(Result, ivec2(pixel), vec4(light, 1.0));
 }

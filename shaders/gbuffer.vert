@@ -1,14 +1,27 @@
 // Camera-relative projection: the camera is subtracted from the vertex in the scene's own coordinates, then rotated, then projected.
+// DETAILED: levels that know more of their vertices (details.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SURFACE_WRITER
 #include "shaders/surface.glsl"
+#ifdef DETAILED
+#include "shaders/details.glsl"
+#endif
 
 layout(location = 0) in vec3 in_position;  // m, relative to the scene's origin
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec2 in_uv;
 layout(location = 0) out vec3 out_normal;
 layout(location = 1) out vec2 out_uv;
+// These two are for the forward pass, which is one program with and without details.
+layout(location = 2) out vec4 out_color;
+layout(location = 3) out vec2 out_metallic_roughness_uv;
+#ifdef DETAILED
+layout(location = 4) out vec4 out_tangent;
+layout(location = 5) out vec2 out_normal_uv;
+layout(location = 6) out vec2 out_emission_uv;
+layout(location = 7) out vec3 out_relative;  // m, camera-relative, world axes
+#endif
 
 void main() {
   vec3 relative = in_position - view.camera;
@@ -25,4 +38,15 @@ void main() {
   gl_Position = position;
   out_normal = in_normal;
   out_uv = in_uv;
+#ifdef DETAILED
+  out_color = detail_color();
+  out_metallic_roughness_uv = detail_uv(ML_DETAIL_METALLIC_ROUGHNESS_UV, in_uv);
+  out_tangent = detail_tangent();
+  out_normal_uv = detail_uv(ML_DETAIL_NORMAL_UV, in_uv);
+  out_emission_uv = detail_uv(ML_DETAIL_EMISSION_UV, in_uv);
+  out_relative = relative;
+#else
+  out_color = vec4(1.0);
+  out_metallic_roughness_uv = in_uv;
+#endif
 }

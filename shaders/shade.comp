@@ -26,6 +26,9 @@
 
 // Which pixels are lit forward (gbuffer.frag).
 layout(binding = BIND_FORWARD) uniform usampler2D Forward;
+// Surfaces give light by themselves, which comes on top of all lights' (gbuffer.frag).
+layout(constant_id = 14) const bool EFFECT_EMISSION = false;
+layout(binding = BIND_EMISSION) uniform sampler2D Emission;
 #ifndef FORWARD
 // Pixels are walked in blocks of 8x8, those of a list: where something is seen, the tiles of one class, the sampled reference.
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -183,6 +186,7 @@ void main() {
       if (inside && surface_to_light(pixel, point))
     shade_alone(point, sum);
   if (!inside) return;
+  if (EFFECT_EMISSION && !SPLIT_TARGETS) sum += VEC3(texelFetch(Emission, ivec2(pixel), 0).rgb);
   imageStore(Result, ivec2(pixel), vec4(sum, 1.0));
   if (SPLIT_TARGETS) imageStore(Specular, ivec2(pixel), vec4(sum_specular, 1.0));
 #ifdef COUNTING

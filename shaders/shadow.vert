@@ -3,11 +3,17 @@
 #extension GL_GOOGLE_include_directive : require
 #define SURFACE_WRITER
 #include "shaders/surface.glsl"
+#ifdef DETAILED
+#include "shaders/details.glsl"
+#endif
 
 layout(location = 0) in vec3 in_position;  // m, relative to the scene's origin
 #ifdef MASKED
 layout(location = 1) in vec2 in_uv;
 layout(location = 0) out vec2 out_uv;
+#ifdef DETAILED
+layout(location = 1) out float out_alpha;
+#endif
 #endif
 
 void main() {
@@ -19,5 +25,8 @@ void main() {
                      -(2.0 * p.y - (view.bottom_edge + view.top_edge) * p.z) / height, view.near, p.z);
 #ifdef MASKED
   out_uv = in_uv;
+#ifdef DETAILED
+  out_alpha = detail_color().a;
+#endif
 #endif
 }

@@ -143,7 +143,8 @@ OracleAnswer oracle_shade(const SurfacePoint& point, std::span<const OracleLight
     to_viewer = range > 0 ? -point.position / range : point.normal;
   }
   OracleAnswer answer;
-  glm::dvec3 highest{0};  // sum of what the lights may give at most
+  answer.radiance = point.emission;
+  glm::dvec3 highest = point.emission;  // and what the lights may give at most on top of it
   uint32_t possible_lights = 0;
   for (const OracleLight& light : lights) {
     if (out_of_reach(point, light)) continue;

@@ -1,7 +1,7 @@
 // The double-precision CPU oracle: every light, straightforwardly, for given surface points. Shares no code
 // with the GPU.
 //
-// radiance = sum over lights of intensity * falloff * cone * N.L * (diffuse + specular), where
+// radiance = emission + sum over lights of intensity * falloff * cone * N.L * (diffuse + specular), where
 //   diffuse  = albedo * (1 - metallic) / pi
 //   specular = D V F: GGX with alpha = max(roughness, 0.045)^2, height-correlated Smith visibility, Schlick's
 //   Fresnel term from
@@ -28,6 +28,7 @@ struct SurfacePoint {
   glm::dvec3 normal{0, 1, 0};  // unit, to double precision
   glm::dvec3 albedo{0.5};
   double roughness = 0.8, metallic = 0;
+  glm::dvec3 emission{0};  // W/m^2/sr that the surface gives by itself
   // Unit, towards the viewer. Zero: perspective, towards the camera at 0. Orthographic: against the camera's
   // forward axis.
   glm::dvec3 view{0};

@@ -48,6 +48,7 @@ OracleFrame::OracleFrame(DeviceFrame& frame, const FrameInput& input)
       normal_(frame.read_aov(DeviceFrame::Aov::normal)),
       albedo_(frame.read_aov(DeviceFrame::Aov::albedo)),
       material_(frame.read_aov(DeviceFrame::Aov::material)) {
+  if (frame.effects().emission) emission_ = frame.read_aov(DeviceFrame::Aov::emission);
   for (size_t i = 0; i < input.lights.count(); ++i) {
     const gpu_data::LightCore& core = input.lights.core[i];
     OracleLight light;
@@ -71,6 +72,7 @@ SurfacePoint OracleFrame::point(size_t pixel) const {
   point.albedo = three(albedo_, pixel);
   point.roughness = static_cast<double>(material_[4 * pixel]);
   point.metallic = static_cast<double>(material_[4 * pixel + 1]);
+  if (!emission_.empty()) point.emission = three(emission_, pixel);
   point.view = view_direction_;
   return point;
 }

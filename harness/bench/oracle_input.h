@@ -17,7 +17,8 @@ class OracleFrame {
   const std::vector<OracleLight>& lights() const { return lights_; }
 
  private:
-  std::vector<float> position_, normal_, albedo_, material_;  // four floats a pixel
+  std::vector<float> position_, normal_, albedo_, material_,
+      emission_;  // four floats a pixel; the last may be empty
   std::vector<OracleLight> lights_;
   glm::dvec3 view_direction_{0};  // towards the eye; zero for perspective
 };

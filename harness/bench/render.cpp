@@ -67,6 +67,10 @@ Picture aov_picture(const std::string& name, DeviceFrame& frame, const PixelCoun
   if (name == "albedo") return picked(frame.read_aov(Aov::albedo), width, height, {"R", "G", "B"}, 0);
   if (name == "material")
     return picked(frame.read_aov(Aov::material), width, height, {"roughness", "metallic"}, 0);
+  if (name == "emission") {
+    if (!frame.effects().emission) return Picture(width, height, {"R", "G", "B"});
+    return picked(frame.read_aov(Aov::emission), width, height, {"R", "G", "B"}, 0);
+  }
   if (name == "depth") return picked(frame.read_aov(Aov::position), width, height, {"Y"}, 3);
   return count_picture(name == "listed" ? counts.listed : counts.contributing, lit, width, height);
 }
@@ -84,8 +88,8 @@ const AlgorithmSpec& chosen_algorithm(const Setup& setup, const std::string& nam
 }  // namespace
 
 const std::vector<std::string>& aov_names() {
-  static const std::vector<std::string> names{"position", "normal",       "depth", "albedo",
-                                              "material", "contributing", "listed"};
+  static const std::vector<std::string> names{"position", "normal",   "depth",        "albedo",
+                                              "material", "emission", "contributing", "listed"};
   return names;
 }
 

@@ -67,6 +67,12 @@ const std::vector<Row>& effects() {
        "cut-out materials; when a material of the scene has a mask (effects.alpha_mask: auto | off)"},
       {"forward",
        "materials lit in a forward pass; when a material of the scene is one (effects.forward: auto | off)"},
+      {"material_detail",
+       "vertex colours, metallic-roughness textures and normal maps; when a mesh of the scene has some "
+       "(effects.material_detail: auto | off)"},
+      {"emission",
+       "surfaces that give light by themselves, added once a pixel; when a material of the scene does "
+       "(effects.emission: auto | off)"},
       {"split_targets",
        "diffuse and specular light written apart and put together by a composite pass (shading.targets: one "
        "| split)"},

@@ -48,6 +48,8 @@ struct EffectsSpec {
   bool specular = true;
   bool alpha_mask = true;
   bool forward = true;
+  bool material_detail = true;
+  bool emission = true;
 };
 
 // Where the shading pass writes: the finished light, or diffuse and specular light apart, to be put together

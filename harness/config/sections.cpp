@@ -57,6 +57,7 @@ void read_scene_name(const Node& node, SceneSpec& scene) {
   }
   scene.procedural = name;
   scene.gltf.clear();
+  scene.root.clear();
   scene.gltf_scene = -1;
 }
 
@@ -66,6 +67,18 @@ void read_scene_file(const Node& node, SceneSpec& scene) {
   scene.procedural.clear();
   try {
     json(scene.gltf.string()).dump();
+  } catch (const json::exception&) {
+    node.fail("the folder's path is not UTF-8, and a result could not name it");
+  }
+}
+
+// Relative to the configuration, as the level's own file is.
+void read_scene_root(const Node& node, SceneSpec& scene) {
+  scene.root =
+      std::filesystem::absolute(node.source().relative_to / std::filesystem::path(node.text(1, 4096)))
+          .lexically_normal();
+  try {
+    json(scene.root.string()).dump();
   } catch (const json::exception&) {
     node.fail("the folder's path is not UTF-8, and a result could not name it");
   }
@@ -171,6 +184,12 @@ std::span<const Field<SceneSpec>> scene_fields() {
          s.gltf_scene = static_cast<int>(n.integer(-1, 1000000));
        },
        [](const SceneSpec& s) { return s.gltf.empty() ? json() : json(s.gltf_scene); }},
+      {"root",
+       [](const Node& n, SceneSpec& s) {
+         if (s.gltf.empty()) n.fail("only a glTF file has a folder that its textures lie in");
+         read_scene_root(n, s);
+       },
+       [](const SceneSpec& s) { return s.root.empty() ? json() : json(s.root.string()); }},
       {"seed", [](const Node& n, SceneSpec& s) { s.seed = n.unsigned_integer(0, most_seed); },
        [](const SceneSpec& s) { return json(s.seed); }},
       {"offset", [](const Node& n, SceneSpec& s) { s.offset = read_vector(n); },
@@ -259,6 +278,10 @@ std::span<const Field<EffectsSpec>> effects_fields() {
        [](const E& e) { return write_auto_off(e.alpha_mask); }},
       {"forward", [](const Node& n, E& e) { e.forward = read_auto_off(n); },
        [](const E& e) { return write_auto_off(e.forward); }},
+      {"material_detail", [](const Node& n, E& e) { e.material_detail = read_auto_off(n); },
+       [](const E& e) { return write_auto_off(e.material_detail); }},
+      {"emission", [](const Node& n, E& e) { e.emission = read_auto_off(n); },
+       [](const E& e) { return write_auto_off(e.emission); }},
   });
   return fields;
 }

@@ -33,8 +33,11 @@ bool inside(std::string_view inner, std::string_view outer) {
 
 // Keys of which the later one undoes the other.
 bool exclude_each_other(std::string_view a, std::string_view b) {
-  static constexpr std::array<std::array<std::string_view, 2>, 3> pairs{
-      {{"scene.name", "scene.gltf"}, {"scene.name", "scene.scene"}, {"camera.path", "camera.keyframes"}}};
+  static constexpr std::array<std::array<std::string_view, 2>, 4> pairs{
+      {{"scene.name", "scene.gltf"},
+       {"scene.name", "scene.scene"},
+       {"scene.name", "scene.root"},
+       {"camera.path", "camera.keyframes"}}};
   return std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
     return (pair[0] == a && pair[1] == b) || (pair[0] == b && pair[1] == a);
   });

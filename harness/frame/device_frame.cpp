@@ -62,8 +62,8 @@ DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const Effects&
                          uint32_t height)
     : device_(device),
       effects_(effects),
-      level_(device, scene, effects.alpha_mask, effects.forward, effects.shadow_maps > 0, effects.clip_far),
-      targets_(device, width, height, effects.forward, effects.split_targets),
+      level_(device, scene, effects),
+      targets_(device, width, height, effects.forward, effects.split_targets, effects.emission),
       commands_(device),
       view_(device, sizeof(gpu_data::ViewData), gpu::MemoryKind::upload, "view"),
       lights_(device, "lights"),
@@ -122,6 +122,8 @@ gpu::Bindings DeviceFrame::bindings() const {
                      {"Result", targets_.result},
                      // Not read where nothing is lit forward.
                      {"Forward", targets_.forward ? *targets_.forward : targets_.surface},
+                     // Not read where no surface gives light by itself.
+                     {"Emission", targets_.emission ? *targets_.emission : targets_.depth},
                      // Not written where there is one target.
                      {"Specular", targets_.specular ? *targets_.specular : targets_.result},
                      {"ListOffsets", passes_->offsets},
@@ -133,7 +135,8 @@ gpu::Bindings DeviceFrame::bindings() const {
 
 uint64_t DeviceFrame::target_bytes() const {
   uint64_t sum = targets_.depth.bytes() + targets_.surface.bytes() + targets_.result.bytes();
-  for (const std::optional<gpu::Image>* image : {&targets_.forward, &targets_.diffuse, &targets_.specular})
+  for (const std::optional<gpu::Image>* image :
+       {&targets_.forward, &targets_.diffuse, &targets_.specular, &targets_.emission})
     if (*image) sum += (*image)->bytes();
   return sum;
 }

@@ -68,9 +68,9 @@ class DeviceFrame {
   // Reads a picture back, row by row.
   std::vector<uint32_t> read_words(const gpu::Image& image);
   std::vector<float> read_floats(const gpu::Image& image);
-  // Position, normal, albedo or material of the g-buffer, four floats a pixel (the fourth is the view depth,
-  // 0 for the sky).
-  enum class Aov : uint32_t { position = 0, normal = 1, albedo = 2, material = 3 };
+  // Position, normal, albedo, material or emission (only with the effect) of the g-buffer, four floats a
+  // pixel (the fourth is the view depth, 0 for the sky).
+  enum class Aov : uint32_t { position = 0, normal = 1, albedo = 2, material = 3, emission = 4 };
   std::vector<float> read_aov(Aov kind);
 
  private:

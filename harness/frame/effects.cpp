@@ -21,6 +21,8 @@ std::vector<std::string> Effects::names(const gpu::Device& device) const {
   if (alpha_mask) list.emplace_back("alpha_mask");
   if (forward) list.emplace_back("forward");
   if (clip_far) list.emplace_back("clip_far");
+  if (material_detail) list.emplace_back("material_detail");
+  if (emission) list.emplace_back("emission");
   if (split_targets) list.emplace_back("split_targets");
   if (shadow_maps) list.emplace_back("shadow_maps");
   if (compute_lists) list.emplace_back("compute_lists");
@@ -41,7 +43,8 @@ std::vector<gpu::Constant> Effects::constants(const gpu::Device& device) const {
           {10, probes},
           {11, limits.one_subgroup_size && !any_subgroup_size ? limits.subgroup_size : 0},
           {12, fetches_texels(device)},
-          {13, test_ahead}};
+          {13, test_ahead},
+          {14, emission}};
 }
 
 void require_texels(const gpu::DeviceLimits& limits, const std::string& what, uint64_t bytes) {

@@ -21,8 +21,10 @@ struct Effects {
   bool probes = false;
   bool specular = true;
   bool alpha_mask = false;
-  bool forward = false;   // materials that are lit in a pass of their own
-  bool clip_far = false;  // the camera has a far plane that cuts the level
+  bool forward = false;          // materials that are lit in a pass of their own
+  bool clip_far = false;         // the camera has a far plane that cuts the level
+  bool material_detail = false;  // vertex colours, metallic-roughness textures, normal maps
+  bool emission = false;         // surfaces that give light by themselves, on top of all lights
   // The shading pass writes diffuse and specular light apart (shading.targets: split), not a property of the
   // content.
   bool split_targets = false;

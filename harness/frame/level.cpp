@@ -2,12 +2,21 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 
 #include "harness/base/error.h"
+#include "harness/frame/vertex_details.h"
 #include "shaders/shared/material.h"
+#include "spirv/gbuffer_detailed_forward_frag.h"
+#include "spirv/gbuffer_detailed_frag.h"
+#include "spirv/gbuffer_detailed_vert.h"
+#include "spirv/gbuffer_emission_forward_frag.h"
+#include "spirv/gbuffer_emission_frag.h"
 #include "spirv/gbuffer_forward_frag.h"
 #include "spirv/gbuffer_frag.h"
 #include "spirv/gbuffer_vert.h"
+#include "spirv/shadow_masked_detailed_frag.h"
+#include "spirv/shadow_masked_detailed_vert.h"
 #include "spirv/shadow_masked_frag.h"
 #include "spirv/shadow_masked_vert.h"
 #include "spirv/shadow_vert.h"
@@ -15,21 +24,18 @@
 namespace ml {
 namespace {
 
+// In memory that the device reads fast; the way there leads through memory that the CPU can write.
 template <typename Element>
-gpu::Buffer filled(gpu::Device& device, const std::vector<Element>& elements, const char* name) {
-  gpu::Buffer buffer(device, elements.size() * sizeof(Element), gpu::MemoryKind::upload, name);
-  std::memcpy(buffer.mapped().data(), elements.data(), buffer.bytes());
-  return buffer;
-}
-
-gpu::Image uploaded(gpu::Device& device, gpu::Commands& commands, const Texture& texture) {
-  gpu::Image image(device, texture.width, texture.height, gpu::Format::rgba8_srgb, gpu::ImageUse::texture,
-                   "texture " + texture.name);
-  gpu::Buffer staging = filled(device, texture.rgba, "texture staging");
+gpu::Buffer filled(gpu::Device& device, gpu::Commands& commands, const std::vector<Element>& elements,
+                   const char* name) {
+  gpu::Buffer staging(device, elements.size() * sizeof(Element), gpu::MemoryKind::upload, name);
+  std::memcpy(staging.mapped().data(), elements.data(), staging.bytes());
+  if (staging.device_local()) return staging;
+  gpu::Buffer buffer(device, staging.bytes(), gpu::MemoryKind::device, name);
   commands.begin(gpu::Timing::none);
-  commands.write_image(staging, image);
+  commands.read_buffer(staging, staging.bytes(), buffer);
   commands.submit();
-  return image;
+  return buffer;
 }
 
 gpu::RasterState vertex_state() {
@@ -40,20 +46,40 @@ gpu::RasterState vertex_state() {
   return state;
 }
 
-std::unique_ptr<gpu::RasterProgram> gbuffer_program(gpu::Device& device, bool masked, bool forward,
-                                                    bool clip_far) {
+// Levels with more than base colours need programs that read more of a vertex and of a material.
+bool is_detailed(const Effects& effects) {
+  return effects.material_detail || effects.emission;
+}
+
+std::span<const uint32_t> gbuffer_vertex(const Effects& effects) {
+  return is_detailed(effects) ? std::span<const uint32_t>(gbuffer_detailed_vert)
+                              : std::span<const uint32_t>(gbuffer_vert);
+}
+
+std::span<const uint32_t> gbuffer_fragment(const Effects& effects) {
+  if (effects.emission)
+    return effects.forward ? std::span<const uint32_t>(gbuffer_emission_forward_frag)
+                           : std::span<const uint32_t>(gbuffer_emission_frag);
+  if (effects.material_detail)
+    return effects.forward ? std::span<const uint32_t>(gbuffer_detailed_forward_frag)
+                           : std::span<const uint32_t>(gbuffer_detailed_frag);
+  return effects.forward ? std::span<const uint32_t>(gbuffer_forward_frag)
+                         : std::span<const uint32_t>(gbuffer_frag);
+}
+
+std::unique_ptr<gpu::RasterProgram> gbuffer_program(gpu::Device& device, bool masked,
+                                                    const Effects& effects) {
   gpu::RasterState state = vertex_state();
   state.colors = {gpu::Format::rg32_uint};
-  if (forward) state.colors.push_back(gpu::Format::r32_uint);
-  return std::make_unique<gpu::RasterProgram>(
-      device, gbuffer_vert,
-      forward ? std::span<const uint32_t>(gbuffer_forward_frag) : std::span<const uint32_t>(gbuffer_frag),
-      masked ? "gbuffer (alpha mask)" : "gbuffer", state,
-      std::vector<gpu::Constant>{{0, masked}, {1, clip_far}});
+  if (effects.forward) state.colors.push_back(gpu::Format::r32_uint);
+  if (effects.emission) state.colors.push_back(gpu::Format::rgba32_float);
+  return std::make_unique<gpu::RasterProgram>(device, gbuffer_vertex(effects), gbuffer_fragment(effects),
+                                              masked ? "gbuffer (alpha mask)" : "gbuffer", state,
+                                              std::vector<gpu::Constant>{{0, masked}, {1, effects.clip_far}});
 }
 
 // Opaque triangles need no fragment shader, and of a vertex its position alone.
-std::unique_ptr<gpu::RasterProgram> depth_program(gpu::Device& device, bool masked) {
+std::unique_ptr<gpu::RasterProgram> depth_program(gpu::Device& device, bool masked, const Effects& effects) {
   gpu::RasterState state;
   state.vertex_stride = sizeof(Vertex);
   state.attributes = {{offsetof(Vertex, position), 3}};
@@ -61,8 +87,40 @@ std::unique_ptr<gpu::RasterProgram> depth_program(gpu::Device& device, bool mask
     return std::make_unique<gpu::RasterProgram>(device, shadow_vert, std::span<const uint32_t>{},
                                                 "shadow map", state);
   state.attributes.push_back({offsetof(Vertex, uv), 2});
-  return std::make_unique<gpu::RasterProgram>(device, shadow_masked_vert, shadow_masked_frag,
-                                              "shadow map (alpha mask)", state);
+  const std::string name = "shadow map (alpha mask)";
+  if (is_detailed(effects))
+    return std::make_unique<gpu::RasterProgram>(device, shadow_masked_detailed_vert,
+                                                shadow_masked_detailed_frag, name, state);
+  return std::make_unique<gpu::RasterProgram>(device, shadow_masked_vert, shadow_masked_frag, name, state);
+}
+
+// What is drawn with it: nothing where no triangle has it.
+bool any_drawn(const Scene& scene, const std::function<bool(const Material&)>& has) {
+  return std::any_of(scene.draws.begin(), scene.draws.end(), [&](const Draw& draw) {
+    return draw.index_count > 0 && has(scene.materials[draw.material]);
+  });
+}
+
+bool has_normal_map(const Material& material) {
+  return material.normal_texture >= 0 && material.normal_scale != 0;
+}
+
+gpu_data::MaterialData material_data(const Material& material, const Effects& effects,
+                                     uint32_t details_layout) {
+  gpu_data::MaterialData data{};
+  data.base_color = material.base_color;
+  data.metallic = material.metallic;
+  data.roughness = material.roughness;
+  data.alpha_cutoff = material.alpha_cutoff;
+  data.double_sided = material.double_sided;
+  data.details = details_layout;
+  if (effects.material_detail) {
+    data.details |= ML_DETAIL_MATERIAL_BIT;
+    if (has_normal_map(material)) data.details |= ML_DETAIL_NORMAL_BIT;
+  }
+  data.normal_scale = material.normal_scale;
+  data.emission = material.emission;
+  return data;
 }
 
 }  // namespace
@@ -74,55 +132,76 @@ bool Level::has_masked_material(const Scene& scene) {
 }
 
 bool Level::has_forward_material(const Scene& scene) {
-  return std::any_of(scene.draws.begin(), scene.draws.end(), [&](const Draw& draw) {
-    return draw.index_count > 0 && scene.materials[draw.material].forward;
+  return any_drawn(scene, [](const Material& material) { return material.forward; });
+}
+
+bool Level::has_material_detail(const Scene& scene) {
+  return !scene.details.colors.empty() || any_drawn(scene, [](const Material& material) {
+    return material.metallic_roughness_texture >= 0 || has_normal_map(material);
   });
 }
 
-Level::Level(gpu::Device& device, const Scene& scene, bool alpha_mask, bool forward, bool shadows,
-             bool clip_far)
-    : vertices_(filled(device, scene.vertices, "vertices")),
-      indices_(filled(device, scene.indices, "indices")) {
-  if (forward && !device.limits().fragment_triangles)
+bool Level::has_emission(const Scene& scene) {
+  return any_drawn(scene, [](const Material& material) { return material.emission != glm::vec3(0); });
+}
+
+Level::Level(gpu::Device& device, const Scene& scene, const Effects& effects)
+    : commands_(device),
+      vertices_(filled(device, commands_, scene.vertices, "vertices")),
+      indices_(filled(device, commands_, scene.indices, "indices")) {
+  if (effects.forward && !device.limits().fragment_triangles)
     throw SystemError("forward materials: '" + device.info().name +
                       "' does not number triangles in fragment shaders (geometryShader); "
                       "effects.forward=off lights them deferred");
-  gpu::Commands commands(device);
-  for (const Texture& texture : scene.textures) textures_.push_back(uploaded(device, commands, texture));
-  textures_.push_back(uploaded(device, commands, Texture{"white", 1, 1, {255, 255, 255, 255}}));
+  uint32_t layout = 0;
+  if (is_detailed(effects)) {
+    PackedDetails packed = packed_details(scene.details, scene.vertices.size());
+    layout = packed.layout;
+    details_.emplace(filled(device, commands_, packed.words, "details of vertices"));
+  }
+  using Use = LevelTextures::Use;
+  auto texture = [&](bool wanted, int index, Use use) {
+    return &textures_.get(device, commands_, scene, wanted ? index : -1, use);
+  };
   for (const Draw& draw : scene.draws) {
     const Material& material = scene.materials[draw.material];
     DrawItem item{draw.first_index,
                   draw.index_count,
                   material.double_sided,
-                  alpha_mask && material.alpha_mode == AlphaMode::mask,
-                  forward && material.forward,
-                  material.base_color_texture < 0 ? textures_.size() - 1
-                                                  : static_cast<size_t>(material.base_color_texture),
+                  effects.alpha_mask && material.alpha_mode == AlphaMode::mask,
+                  effects.forward && material.forward,
+                  texture(true, material.base_color_texture, Use::color),
+                  texture(effects.material_detail, material.metallic_roughness_texture, Use::data),
+                  texture(effects.material_detail, material.normal_texture, Use::data),
+                  texture(effects.emission, material.emission_texture, Use::color),
                   {}};
-    gpu_data::MaterialData data{material.base_color,   material.metallic,
-                                material.roughness,    material.alpha_cutoff,
-                                material.double_sided, item.forward ? 1 + draw.first_index / 3 : 0};
+    gpu_data::MaterialData data = material_data(material, effects, layout);
+    data.forward_triangle = item.forward ? 1 + draw.first_index / 3 : 0;
     item.push.resize(sizeof data);
     std::memcpy(item.push.data(), &data, sizeof data);
     items_.push_back(std::move(item));
   }
   bool any_masked =
       std::any_of(items_.begin(), items_.end(), [](const DrawItem& item) { return item.masked; });
-  opaque_ = gbuffer_program(device, false, forward, clip_far);
-  if (any_masked) masked_ = gbuffer_program(device, true, forward, clip_far);
-  if (!shadows) return;
-  depth_opaque_ = depth_program(device, false);
-  if (any_masked) depth_masked_ = depth_program(device, true);
+  opaque_ = gbuffer_program(device, false, effects);
+  if (any_masked) masked_ = gbuffer_program(device, true, effects);
+  if (!effects.shadow_maps) return;
+  depth_opaque_ = depth_program(device, false, effects);
+  if (any_masked) depth_masked_ = depth_program(device, true, effects);
 }
 
-gpu::DrawCall Level::call_of(const DrawItem& item, const gpu::RasterProgram& program) {
+gpu::DrawCall Level::call_of(const DrawItem& item, const gpu::RasterProgram& program) const {
   gpu::DrawCall call;
   call.first_index = item.first_index;
   call.index_count = item.index_count;
   call.double_sided = item.double_sided;
   call.program = &program;
   call.push = item.push;
+  call.bindings = {{"BaseColor", *item.base_color},
+                   {"MetallicRoughness", *item.metallic_roughness},
+                   {"NormalMap", *item.normal_map},
+                   {"EmissionMap", *item.emission_map}};
+  if (details_) call.bindings.emplace_back("Details", *details_);
   return call;
 }
 
@@ -132,11 +211,12 @@ void Level::record_gbuffer(gpu::Commands& commands, const gpu::Buffer& view,
   draws.reserve(items_.size());
   for (const DrawItem& item : items_) {
     gpu::DrawCall call = call_of(item, item.masked ? *masked_ : *opaque_);
-    call.bindings = {{"View", view}, {"BaseColor", textures_[item.texture]}};
+    call.bindings.emplace_back("View", view);
     draws.push_back(std::move(call));
   }
   gpu::RasterTargets into{{&targets.surface}, &targets.depth};
   if (targets.forward) into.colors.push_back(&*targets.forward);
+  if (targets.emission) into.colors.push_back(&*targets.emission);
   commands.raster(into, vertices_, indices_, draws);
 }
 
@@ -145,20 +225,19 @@ void Level::record_depth(gpu::Commands& commands, const gpu::Buffer& view, const
   draws.reserve(items_.size());
   for (const DrawItem& item : items_) {
     gpu::DrawCall call = call_of(item, item.masked ? *depth_masked_ : *depth_opaque_);
-    call.bindings = {{"View", view}};
-    if (item.masked) call.bindings.emplace_back("BaseColor", textures_[item.texture]);
+    call.bindings.emplace_back("View", view);
     draws.push_back(std::move(call));
   }
   commands.raster({{}, &depth}, vertices_, indices_, draws);
 }
 
 gpu::RasterProgram Level::forward_program(gpu::Device& device, std::span<const uint32_t> fragment,
-                                          const std::string& name,
+                                          const std::string& name, const Effects& effects,
                                           const std::vector<gpu::Constant>& constants) {
   gpu::RasterState state = vertex_state();
   state.colors = {gpu::Format::rgba32_float};
   state.at_equal_depth = true;
-  return {device, gbuffer_vert, fragment, name, state, constants};
+  return {device, gbuffer_vertex(effects), fragment, name, state, constants};
 }
 
 void Level::record_forward(gpu::Commands& commands, const gpu::RasterProgram& program,
@@ -167,8 +246,7 @@ void Level::record_forward(gpu::Commands& commands, const gpu::RasterProgram& pr
   for (const DrawItem& item : items_) {
     if (!item.forward) continue;
     gpu::DrawCall call = call_of(item, program);
-    call.bindings = bindings;
-    call.bindings.emplace_back("BaseColor", textures_[item.texture]);
+    call.bindings.insert(call.bindings.end(), bindings.begin(), bindings.end());
     draws.push_back(std::move(call));
   }
   commands.raster({{&targets.result}, &targets.depth, true}, vertices_, indices_, draws);

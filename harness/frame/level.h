@@ -2,8 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "harness/frame/effects.h"
+#include "harness/frame/level_textures.h"
 #include "harness/frame/targets.h"
 #include "harness/gpu/commands.h"
 #include "harness/scene/scene.h"
@@ -12,23 +15,23 @@ namespace ml {
 
 class Level {
  public:
-  // Uploads vertices, indices and textures. `alpha_mask` false: masked materials are drawn whole; `forward`
-  // false: forward materials are like any others (effects forced off); `shadows`: record_depth() will be
-  // asked for; `clip_far`: views may have a clip_far. Throws SystemError when the device cannot hold the
-  // level, or cannot draw forward materials.
-  Level(gpu::Device& device, const Scene& scene, bool alpha_mask, bool forward = false, bool shadows = false,
-        bool clip_far = false);
+  // Uploads vertices, indices and textures into the device's own memory. Effects that are off: masked
+  // materials are drawn whole, forward ones like any others, materials without vertex colours,
+  // metallic-roughness and normal textures, surfaces give no light; without shadow maps record_depth() will
+  // not be asked for. Throws SystemError when the device cannot hold the level, or cannot draw forward
+  // materials.
+  Level(gpu::Device& device, const Scene& scene, const Effects& effects);
 
   // A program of the forward pass; `fragment` is ShadeShaders::forward or its counting twin.
   static gpu::RasterProgram forward_program(gpu::Device& device, std::span<const uint32_t> fragment,
-                                            const std::string& name,
+                                            const std::string& name, const Effects& effects,
                                             const std::vector<gpu::Constant>& constants);
   // Draws what is lit forward into the result, over what is there; `bindings` is what the shading loop binds.
   void record_forward(gpu::Commands& commands, const gpu::RasterProgram& program,
                       const gpu::Bindings& bindings, const FrameTargets& targets) const;
 
-  // Draws everything into depth, surface and (where there is one) forward; `view` is the frame's uniform
-  // buffer.
+  // Draws everything into depth, surface and (where there are any) forward and emission; `view` is the
+  // frame's uniform buffer.
   void record_gbuffer(gpu::Commands& commands, const gpu::Buffer& view, const FrameTargets& targets) const;
 
   // Draws everything into a depth picture alone, as `view` sees it.
@@ -38,21 +41,27 @@ class Level {
   static bool has_masked_material(const Scene& scene);
   // Whether any triangle of the scene is to be lit forward.
   static bool has_forward_material(const Scene& scene);
+  // Whether any triangle of the scene has vertex colours, a metallic-roughness texture or a normal map.
+  static bool has_material_detail(const Scene& scene);
+  // Whether any triangle of the scene gives light by itself.
+  static bool has_emission(const Scene& scene);
 
  private:
+  gpu::Commands commands_;  // for uploading
   gpu::Buffer vertices_, indices_;
-  std::vector<gpu::Image> textures_;  // the last one is a white pixel
+  std::optional<gpu::Buffer> details_;  // of vertices: where programs ask for them
+  LevelTextures textures_;
   std::unique_ptr<gpu::RasterProgram> opaque_, masked_, depth_opaque_, depth_masked_;
   struct DrawItem {
     uint32_t first_index, index_count;
     bool double_sided, masked, forward;
-    size_t texture;
+    const gpu::Image *base_color, *metallic_roughness, *normal_map, *emission_map;
     std::vector<std::byte> push;
   };
   std::vector<DrawItem> items_;
 
-  // A draw of the item by the program that fits it, nothing bound yet.
-  static gpu::DrawCall call_of(const DrawItem& item, const gpu::RasterProgram& program);
+  // A draw of the item by the program that fits it, with what belongs to the mesh bound.
+  gpu::DrawCall call_of(const DrawItem& item, const gpu::RasterProgram& program) const;
 };
 
 }  // namespace ml

@@ -61,7 +61,9 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
   for (gpu::UploadBuffer& buffer : buffers_) buffer.map(0);
   sampled_blocks_.map(0);
   class_blocks_.map(0);
-  if (effects.split_targets) composite_.emplace(device, composite_comp, "composite");
+  if (effects.split_targets)
+    composite_.emplace(device, composite_comp, "composite",
+                       std::vector<gpu::Constant>{{14, effects.emission}});
   if (!effects.forward) return;
   if (!device.limits().fragment_stores)
     throw SystemError("forward materials: '" + device.info().name +
@@ -71,9 +73,10 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
   // Forward materials have their albedo at hand: their light goes to the result at once. Pixels walk alone.
   std::vector<gpu::Constant> constants = effects.constants(device);
   append_numbered(constants, first_own_id, algorithm_->shade_constants());
-  forward_timed_ = Level::forward_program(device, shaders.forward, entry.info.name + ": forward", constants);
+  forward_timed_ =
+      Level::forward_program(device, shaders.forward, entry.info.name + ": forward", effects, constants);
   forward_counting_ = Level::forward_program(device, shaders.forward_counting,
-                                             entry.info.name + ": forward, counting", constants);
+                                             entry.info.name + ": forward, counting", effects, constants);
 }
 
 // Ids shared by every shading program: shaders/light_eval.glsl, shaders/shade.comp.

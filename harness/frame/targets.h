@@ -16,14 +16,19 @@ struct FrameTargets {
   std::optional<gpu::Image> forward;
   // Light that the albedo multiplies, and the rest: only where the shading pass writes them apart.
   std::optional<gpu::Image> diffuse, specular;
+  // W/m^2/sr that the surface gives by itself: only where one does.
+  std::optional<gpu::Image> emission;
   FrameTargets(gpu::Device& device, uint32_t width, uint32_t height, bool with_forward = false,
-               bool split = false)
+               bool split = false, bool with_emission = false)
       : depth(device, width, height, gpu::Format::d32_float, gpu::ImageUse::attachment, "depth"),
         surface(device, width, height, gpu::Format::rg32_uint, gpu::ImageUse::attachment, "surface"),
         result(device, width, height, gpu::Format::rgba32_float,
                with_forward ? gpu::ImageUse::storage_attachment : gpu::ImageUse::storage, "result") {
     if (with_forward)
       forward.emplace(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::attachment, "forward");
+    if (with_emission)
+      emission.emplace(device, width, height, gpu::Format::rgba32_float, gpu::ImageUse::attachment,
+                       "emission");
     if (!split) return;
     diffuse.emplace(device, width, height, gpu::Format::rgba32_float, gpu::ImageUse::storage, "diffuse");
     specular.emplace(device, width, height, gpu::Format::rgba32_float, gpu::ImageUse::storage, "specular");

@@ -135,7 +135,7 @@ void Commands::clear(const Image& image) {
   Impl& c = *impl_;
   c.to_layout(image, vk::ImageLayout::eTransferDstOptimal);
   c.now().clearColorImage(*image.impl().image, vk::ImageLayout::eTransferDstOptimal, vk::ClearColorValue{},
-                          {{image.impl().aspect, 0, 1, 0, 1}});
+                          {{image.impl().aspect, 0, image.levels(), 0, 1}});
   c.pass_done();
 }
 
@@ -165,9 +165,16 @@ void Commands::write_image(const Buffer& from, const Image& image) {
   Impl& c = *impl_;
   assert(from.bytes() >= image.bytes());
   c.to_layout(image, vk::ImageLayout::eTransferDstOptimal);
-  vk::BufferImageCopy region(0, 0, 0, {image.impl().aspect, 0, 0, 1}, {}, {image.width(), image.height(), 1});
+  std::vector<vk::BufferImageCopy> regions;
+  vk::DeviceSize offset = 0;
+  for (uint32_t level = 0; level < image.levels(); ++level) {
+    const uint32_t width = image.width(level), height = image.height(level);
+    regions.emplace_back(offset, 0, 0, vk::ImageSubresourceLayers(image.impl().aspect, level, 0, 1),
+                         vk::Offset3D(), vk::Extent3D(width, height, 1));
+    offset += vk::DeviceSize{width} * height * bytes_per_pixel(image.format());
+  }
   c.now().copyBufferToImage(*from.impl().buffer, *image.impl().image, vk::ImageLayout::eTransferDstOptimal,
-                            region);
+                            regions);
   c.pass_done();
 }
 

@@ -89,10 +89,10 @@ class Commands {
 
   void clear(const Image& image);  // all bits 0
   void fill(const Buffer& buffer, uint32_t word);
-  void transfer(const UploadBuffer& buffer);                // to the device-local twin, where there is one
-  void read_image(const Image& image, const Buffer& into);  // tightly packed rows
-  void write_image(const Buffer& from, const Image& image);
-  void read_buffer(const Buffer& buffer, size_t bytes, const Buffer& into);
+  void transfer(const UploadBuffer& buffer);                 // to the device-local twin, where there is one
+  void read_image(const Image& image, const Buffer& into);   // tightly packed rows
+  void write_image(const Buffer& from, const Image& image);  // all levels, one behind the other
+  void read_buffer(const Buffer& buffer, size_t bytes, const Buffer& into);  // into any kind of memory
 
   // Names the passes until the returned object dies; spans do not nest.
   class Span {

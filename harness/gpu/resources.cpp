@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
+#include "harness/gpu/memory_order.h"
 #include "harness/gpu/vulkan.h"
 
 namespace ml::gpu {
@@ -11,35 +13,68 @@ namespace {
 
 using Property = vk::MemoryPropertyFlagBits;
 
-// The first memory type allowed by `bits` that has all of one of the wishes, tried in order.
-uint32_t memory_type(const Device::Impl& device, uint32_t bits,
-                     std::initializer_list<vk::MemoryPropertyFlags> wishes) {
-  for (vk::MemoryPropertyFlags wish : wishes)
-    for (uint32_t i = 0; i < device.memory.memoryTypeCount; ++i)
-      if ((bits >> i & 1) && (device.memory.memoryTypes[i].propertyFlags & wish) == wish) return i;
-  throw SystemError("the device has no memory of the kind that a buffer needs");
-}
-
-uint32_t memory_type(const Device::Impl& device, uint32_t bits, MemoryKind kind) {
-  vk::MemoryPropertyFlags mapped = Property::eHostVisible | Property::eHostCoherent;
+// The best kind of memory first.
+std::array<uint32_t, 2> wishes(MemoryKind kind) {
+  auto bits = [](vk::MemoryPropertyFlags flags) { return static_cast<uint32_t>(flags); };
+  const vk::MemoryPropertyFlags mapped = Property::eHostVisible | Property::eHostCoherent;
   switch (kind) {
     case MemoryKind::upload:
-      return memory_type(device, bits, {mapped | Property::eDeviceLocal, mapped});
+      return {bits(mapped | Property::eDeviceLocal), bits(mapped)};
     case MemoryKind::readback:
-      return memory_type(device, bits, {mapped | Property::eHostCached, mapped});
+      return {bits(mapped | Property::eHostCached), bits(mapped)};
     default:
-      return memory_type(device, bits, {Property::eDeviceLocal, vk::MemoryPropertyFlags{}});
+      return {bits(Property::eDeviceLocal), 0};
   }
 }
 
-vk::raii::DeviceMemory allocate(const Device::Impl& device, const vk::MemoryRequirements& needs,
-                                uint32_t type, const std::string& name) {
-  try {
-    return {device.device, vk::MemoryAllocateInfo(needs.size, type)};
-  } catch (const vk::Error& error) {
-    throw SystemError(
-        fmt::format("{}: the device has no {} bytes left ({})", name, needs.size, error.what()));
+struct Allocation {
+  vk::raii::DeviceMemory memory;
+  uint32_t type;
+};
+
+// Out of the first heap that has room: those of the best kind come first.
+Allocation allocate(const Device::Impl& device, const vk::MemoryRequirements& needs, MemoryKind kind,
+                    const std::string& name) {
+  std::vector<MemoryType> types;
+  std::vector<uint64_t> heaps;
+  for (uint32_t i = 0; i < device.memory.memoryTypeCount; ++i)
+    types.push_back({static_cast<uint32_t>(device.memory.memoryTypes[i].propertyFlags),
+                     device.memory.memoryTypes[i].heapIndex});
+  for (uint32_t i = 0; i < device.memory.memoryHeapCount; ++i)
+    heaps.push_back(device.memory.memoryHeaps[i].size);
+  std::string why = "no memory of the kind that it needs is that large";
+  for (uint32_t type : memory_order(types, heaps, needs.memoryTypeBits, needs.size, wishes(kind))) try {
+      return {vk::raii::DeviceMemory(device.device, vk::MemoryAllocateInfo(needs.size, type)), type};
+    } catch (const vk::Error& error) {
+      why = error.what();
+    }
+  throw SystemError(fmt::format("{}: the device has no {} bytes left ({})", name, needs.size, why));
+}
+
+vk::SamplerAddressMode address_mode(Sampling::Edge edge) {
+  switch (edge) {
+    case Sampling::Edge::mirrored_repeat:
+      return vk::SamplerAddressMode::eMirroredRepeat;
+    case Sampling::Edge::clamp:
+      return vk::SamplerAddressMode::eClampToEdge;
+    default:
+      return vk::SamplerAddressMode::eRepeat;
   }
+}
+
+vk::SamplerCreateInfo sampler_info(const Sampling& sampling) {
+  auto filter = [](bool linear) { return linear ? vk::Filter::eLinear : vk::Filter::eNearest; };
+  vk::SamplerCreateInfo info(
+      {}, filter(sampling.magnify_linear), filter(sampling.minify_linear),
+      sampling.levels_linear ? vk::SamplerMipmapMode::eLinear : vk::SamplerMipmapMode::eNearest,
+      address_mode(sampling.u), address_mode(sampling.v));
+  // With one level the level of detail still chooses between the two filters, which it cannot when it is held
+  // at 0 (Vulkan 1.3, VkSamplerCreateInfo: how OpenGL's filters without levels are said).
+  if (sampling.levels > 1)
+    info.maxLod = static_cast<float>(sampling.levels);
+  else if (sampling.magnify_linear != sampling.minify_linear)
+    info.maxLod = 0.25f;
+  return info;
 }
 
 }  // namespace
@@ -56,6 +91,8 @@ vk::Format vulkan_format(Format format) {
       return vk::Format::eD32Sfloat;
     case Format::rgba8_srgb:
       return vk::Format::eR8G8B8A8Srgb;
+    case Format::rgba8_unorm:
+      return vk::Format::eR8G8B8A8Unorm;
   }
   throw std::logic_error("unknown format");
 }
@@ -88,17 +125,17 @@ Buffer::Buffer(Device& owner, size_t bytes, MemoryKind kind, const std::string& 
       device.device,
       vk::BufferCreateInfo({}, bytes, usage, sharing.mode, sharing.count, sharing.families.data()));
   vk::MemoryRequirements needs = impl_->buffer.getMemoryRequirements();
-  uint32_t type = memory_type(device, needs.memoryTypeBits, kind);
-  impl_->memory = allocate(device, needs, type, name);
+  Allocation found = allocate(device, needs, kind, name);
+  const vk::MemoryPropertyFlags properties = device.memory.memoryTypes[found.type].propertyFlags;
+  impl_->memory = std::move(found.memory);
   impl_->buffer.bindMemory(*impl_->memory, 0);
   if (kind != MemoryKind::readback && bytes >= quad_bytes)
     impl_->quads = vk::raii::BufferView(
         device.device, vk::BufferViewCreateInfo({}, *impl_->buffer, vk::Format::eR32G32B32A32Uint, 0,
                                                 std::min<uint64_t>(bytes, device.limits.texel_buffer_bytes) /
                                                     quad_bytes * quad_bytes));
-  impl_->device_local =
-      static_cast<bool>(device.memory.memoryTypes[type].propertyFlags & Property::eDeviceLocal);
-  impl_->cached = static_cast<bool>(device.memory.memoryTypes[type].propertyFlags & Property::eHostCached);
+  impl_->device_local = static_cast<bool>(properties & Property::eDeviceLocal);
+  impl_->cached = static_cast<bool>(properties & Property::eHostCached);
   if (kind != MemoryKind::device)
     impl_->mapped = {static_cast<std::byte*>(impl_->memory.mapMemory(0, VK_WHOLE_SIZE)), bytes};
 }
@@ -134,8 +171,12 @@ std::span<std::byte> UploadBuffer::map(size_t bytes) {
 }
 
 Image::Image(Device& owner, uint32_t width, uint32_t height, Format format, ImageUse use,
-             const std::string& name)
-    : width_(width), height_(height), format_(format), impl_(std::make_unique<Impl>()) {
+             const std::string& name, const Sampling& sampling)
+    : width_(width),
+      height_(height),
+      levels_(use == ImageUse::texture ? sampling.levels : 1),
+      format_(format),
+      impl_(std::make_unique<Impl>()) {
   const Device::Impl& device = owner.impl();
   if (width == 0 || height == 0 || width > device.limits.image_size || height > device.limits.image_size)
     throw SystemError(fmt::format("{} of {}x{} px: '{}' has images of 1 to {} px a side", name, width, height,
@@ -147,22 +188,24 @@ Image::Image(Device& owner, uint32_t width, uint32_t height, Format format, Imag
   if (use == ImageUse::storage || use == ImageUse::storage_attachment) usage |= Usage::eStorage;
   if (use == ImageUse::attachment || use == ImageUse::storage_attachment)
     usage |= depth ? Usage::eDepthStencilAttachment : Usage::eColorAttachment;
-  vk::ImageCreateInfo info({}, vk::ImageType::e2D, vulkan_format(format), vk::Extent3D(width, height, 1), 1,
-                           1, vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage);
+  vk::ImageCreateInfo info({}, vk::ImageType::e2D, vulkan_format(format), vk::Extent3D(width, height, 1),
+                           levels_, 1, vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage);
   impl_->image = vk::raii::Image(device.device, info);
   vk::MemoryRequirements needs = impl_->image.getMemoryRequirements();
-  impl_->memory =
-      allocate(device, needs, memory_type(device, needs.memoryTypeBits, MemoryKind::device), name);
+  impl_->memory = allocate(device, needs, MemoryKind::device, name).memory;
   impl_->image.bindMemory(*impl_->memory, 0);
   impl_->view = vk::raii::ImageView(
       device.device, vk::ImageViewCreateInfo({}, *impl_->image, vk::ImageViewType::e2D, vulkan_format(format),
-                                             {}, {impl_->aspect, 0, 1, 0, 1}));
-  bool filter = use == ImageUse::texture;
-  vk::SamplerCreateInfo sampler({}, filter ? vk::Filter::eLinear : vk::Filter::eNearest,
-                                filter ? vk::Filter::eLinear : vk::Filter::eNearest,
-                                vk::SamplerMipmapMode::eNearest, vk::SamplerAddressMode::eRepeat,
-                                vk::SamplerAddressMode::eRepeat, vk::SamplerAddressMode::eRepeat);
-  impl_->sampler = vk::raii::Sampler(device.device, sampler);
+                                             {}, {impl_->aspect, 0, levels_, 0, 1}));
+  const Sampling pixel_by_pixel{.magnify_linear = false, .minify_linear = false};
+  impl_->sampler =
+      vk::raii::Sampler(device.device, sampler_info(use == ImageUse::texture ? sampling : pixel_by_pixel));
+}
+
+size_t Image::bytes() const {
+  size_t sum = 0;
+  for (uint32_t level = 0; level < levels_; ++level) sum += size_t{width(level)} * height(level);
+  return sum * bytes_per_pixel(format_);
 }
 
 Image::~Image() = default;

@@ -1,6 +1,7 @@
 // Buffers and images.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -62,7 +63,7 @@ class UploadBuffer {
   size_t used_ = 0;
 };
 
-enum class Format { r32_uint, rg32_uint, rgba32_float, d32_float, rgba8_srgb };
+enum class Format { r32_uint, rg32_uint, rgba32_float, d32_float, rgba8_srgb, rgba8_unorm };
 size_t bytes_per_pixel(Format format);
 
 enum class ImageUse {
@@ -72,11 +73,21 @@ enum class ImageUse {
   texture
 };
 
+// How shaders read a texture between its pixels and beyond its edges.
+struct Sampling {
+  enum class Edge { repeat, mirrored_repeat, clamp };
+  bool magnify_linear = true, minify_linear = true;
+  uint32_t levels = 1;  // of the image: the whole picture, then each half as wide and high, at least 1 px
+  bool levels_linear = false;  // two levels are mixed; else the nearer one is taken
+  Edge u = Edge::repeat, v = Edge::repeat;
+};
+
 class Image {
  public:
-  // Throws SystemError when it is larger than the device's images or its memory.
-  Image(Device& device, uint32_t width, uint32_t height, Format format, ImageUse use,
-        const std::string& name);
+  // `sampling` counts for textures; others are read pixel by pixel. Throws SystemError when it is larger than
+  // the device's images or its memory.
+  Image(Device& device, uint32_t width, uint32_t height, Format format, ImageUse use, const std::string& name,
+        const Sampling& sampling = {});
   ~Image();
   Image(Image&&) noexcept;
   Image& operator=(Image&&) noexcept;
@@ -84,13 +95,17 @@ class Image {
   uint32_t width() const { return width_; }
   uint32_t height() const { return height_; }
   Format format() const { return format_; }
-  size_t bytes() const { return size_t{width_} * height_ * bytes_per_pixel(format_); }
+  uint32_t levels() const { return levels_; }
+  uint32_t width(uint32_t level) const { return std::max(width_ >> level, 1u); }
+  uint32_t height(uint32_t level) const { return std::max(height_ >> level, 1u); }
+  // Of all levels, one behind the other.
+  size_t bytes() const;
 
   struct Impl;
   Impl& impl() const { return *impl_; }
 
  private:
-  uint32_t width_ = 0, height_ = 0;
+  uint32_t width_ = 0, height_ = 0, levels_ = 1;
   Format format_ = Format::r32_uint;
   std::unique_ptr<Impl> impl_;
 };

@@ -32,7 +32,7 @@ void change_owner(const Image& image, const vk::raii::CommandBuffer& from, uint3
                   const vk::raii::CommandBuffer& to, uint32_t to_family) {
   const Image::Impl& i = image.impl();
   vk::ImageMemoryBarrier2 half(all_stages, all_access, all_stages, {}, i.layout, i.layout, from_family,
-                               to_family, *i.image, {i.aspect, 0, 1, 0, 1});
+                               to_family, *i.image, {i.aspect, 0, image.levels(), 0, 1});
   from.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, half));
   half.setSrcAccessMask({}).setDstAccessMask(all_access);
   to.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, half));
@@ -85,7 +85,7 @@ void Commands::Impl::to_layout(const Image& image, vk::ImageLayout layout) {
   if (image.impl().layout != layout) {
     vk::ImageMemoryBarrier2 change(all_stages, all_access, all_stages, all_access, image.impl().layout,
                                    layout, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED,
-                                   *image.impl().image, {image.impl().aspect, 0, 1, 0, 1});
+                                   *image.impl().image, {image.impl().aspect, 0, image.levels(), 0, 1});
     buffer->pipelineBarrier2(vk::DependencyInfo({}, {}, {}, change));
     image.impl().layout = layout;
   }

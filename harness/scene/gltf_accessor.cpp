@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
+#include <utility>
 
 #include "harness/scene/gltf_file.h"
 
@@ -116,11 +118,15 @@ std::vector<double> read_all(const File& file, size_t index, size_t components) 
 }  // namespace
 
 std::vector<double> read_numbers(const File& file, size_t index, int components, const std::string& place) {
-  static const char* const names[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+  static const std::map<int, std::pair<const char*, int>> types = {{1, {"SCALAR", TINYGLTF_TYPE_SCALAR}},
+                                                                   {2, {"VEC2", TINYGLTF_TYPE_VEC2}},
+                                                                   {3, {"VEC3", TINYGLTF_TYPE_VEC3}},
+                                                                   {4, {"VEC4", TINYGLTF_TYPE_VEC4}},
+                                                                   {16, {"MAT4", TINYGLTF_TYPE_MAT4}}};
   const tinygltf::Accessor& accessor = file.model.accessors[index];
-  int wanted = components == 1 ? TINYGLTF_TYPE_SCALAR : components;  // TINYGLTF_TYPE_VECn is n
+  const auto& [name, wanted] = types.at(components);
   if (accessor.type != wanted)
-    file.fail(place, "expected " + std::string(names[components]) + " elements in " + at("accessors", index));
+    file.fail(place, "expected " + std::string(name) + " elements in " + at("accessors", index));
   if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
     file.fail(place, "expected floats or 8- or 16-bit integers in " + at("accessors", index));
   if (accessor.count > max_vertices)

@@ -51,6 +51,15 @@ std::string decode_percent(std::string_view text) {
   return result;
 }
 
+// Of names alone: what a user's own links point to is the user's business.
+bool lies_below(const std::filesystem::path& path, const std::filesystem::path& root) {
+  const auto whole = [](const std::filesystem::path& p) {
+    return std::filesystem::absolute(p.empty() ? "." : p).lexically_normal();
+  };
+  const std::filesystem::path relative = whole(path).lexically_relative(whole(root));
+  return !relative.empty() && *relative.begin() != "..";
+}
+
 void check_views(const File& file) {
   for (size_t i = 0; i < file.model.bufferViews.size(); ++i) {
     const tinygltf::BufferView& view = file.model.bufferViews[i];
@@ -66,12 +75,16 @@ void check_views(const File& file) {
 
 std::filesystem::path external_path(const File& file, const std::string& place, const std::string& uri) {
   if (!file.external) file.fail(place, "external files are refused here: '" + uri + "'");
-  std::string decoded = decode_percent(uri);
-  std::filesystem::path path(decoded);
-  bool inside = !decoded.empty() && path.is_relative() && decoded.find('\\') == std::string::npos &&
-                decoded.find(':') == std::string::npos && decoded.find('\0') == std::string::npos;
-  for (const auto& part : path) inside = inside && part != "..";
-  if (!inside) file.fail(place, "expected a file in or below the folder of the glTF, found '" + uri + "'");
+  const std::string decoded = decode_percent(uri);
+  const std::filesystem::path path(decoded);
+  // A colon or a backslash that stands there as itself begins a scheme or a drive, or separates folders
+  // elsewhere; one that is written %3A or %5C belongs to a name.
+  if (decoded.empty() || !path.is_relative() || uri.find_first_of(":\\") != std::string::npos ||
+      decoded.find('\0') != std::string::npos)
+    file.fail(place, "expected a file in or below the folder of the glTF, found '" + uri + "'");
+  if (!lies_below(file.folder / path, file.root) && !lies_below(file.folder / path, file.folder))
+    file.fail(place, "expected a file in or below '" + (file.root.empty() ? "." : file.root.string()) +
+                         "', found '" + uri + "'; scene.root names another folder");
   return file.folder / path;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -24,6 +25,22 @@ OrderedJson vector_json(const glm::dvec3& v) {
 }
 OrderedJson quaternion_json(const glm::dvec4& q) {
   return OrderedJson::array({q.x, q.y, q.z, q.w});
+}
+
+// A file name as a URI: what has a meaning there, or is no ASCII, is written in percent (RFC 3986, section
+// 2).
+std::string uri_of(const std::string& name) {
+  static const std::string_view plain = "-._~!$&'()*+,;=@ ";
+  static const char digits[] = "0123456789ABCDEF";
+  std::string uri;
+  for (char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80 && (std::isalnum(byte) || plain.find(c) != std::string_view::npos))
+      uri += c;
+    else
+      uri += {'%', digits[byte >> 4], digits[byte & 15]};
+  }
+  return uri;
 }
 
 // The rotation that takes -z to `direction`; square roots alone, so that every machine makes the same bits.
@@ -278,7 +295,7 @@ void export_glb(const Scene& scene, const std::vector<Light>& lights, const std:
 
   std::filesystem::path side_file;
   if (lights.size() > max_gltf_lights) side_file = file.string() + ".lights.bin";
-  std::vector<std::byte> glb = Exporter(scene, lights).write(side_file.filename().string());
+  std::vector<std::byte> glb = Exporter(scene, lights).write(uri_of(side_file.filename().string()));
   if (!side_file.empty()) write_file(side_file, gltf::encode_lights(lights));
   write_file(file, glb);
 }

@@ -38,7 +38,8 @@ constexpr int max_depth = 1024;                 // of the node tree
 
 struct File {
   std::string name;              // as errors call it
-  std::filesystem::path folder;  // external files lie in or below it
+  std::filesystem::path folder;  // what URIs are relative to
+  std::filesystem::path root;    // external files lie in or below it, or the folder
   bool external = false;         // whether external files may be read
 
   Json json;  // the checked copy of the description
@@ -63,6 +64,13 @@ struct Container {
 };
 Container open_container(const File& file, Bytes bytes);
 
+// gltf_extensions.cpp. Throws UsageError where `raw` is no glTF 2.x or needs an extension without which the
+// level would not be what it is; adds a note for each that it can do without. Types and ranges of what it
+// looks at need not have been proven.
+void check_version_and_extensions(File& file, const Json& raw);
+// Adds a note for each extension that the file uses and the importer does not know, with how often.
+void note_unknown_extensions(File& file, const Json& raw);
+
 // gltf_schema.cpp. The parts of `raw` that the importer reads, with every type, range and reference proven;
 // throws UsageError.
 Json checked_description(const File& file, const Json& raw);
@@ -73,14 +81,15 @@ void note_what_is_ignored(File& file, const Json& raw);
 void load_buffers(File& file, std::optional<Bytes> binary);
 // The bytes of a buffer view.
 Bytes view_bytes(const File& file, size_t view);
-// The bytes behind a URI: a data URI is decoded, anything else is a file below file.folder.
+// The bytes behind a URI: a data URI is decoded, anything else is a file below file.root.
 std::vector<std::byte> load_uri(const File& file, const std::string& place, const std::string& uri);
-// The path of a file below file.folder. Throws UsageError for absolute paths, "..", schemes, and where
-// external files are refused.
+// The path of a file that lies in or below file.root, seen from file.folder. Throws UsageError for absolute
+// paths, schemes, paths that lead out of the root, and where external files are refused.
 std::filesystem::path external_path(const File& file, const std::string& place, const std::string& uri);
 
 // gltf_accessor.cpp. `place` is where the accessor is used, for errors.
-// Elements of `components` numbers each, normalised integers as [0, 1] or [-1, 1]; all finite.
+// Elements of `components` numbers each (1 to 4, or 16: matrices, column by column), normalised integers as
+// [0, 1] or [-1, 1]; all finite.
 std::vector<double> read_numbers(const File& file, size_t accessor, int components, const std::string& place);
 std::vector<uint32_t> read_indices(const File& file, size_t accessor, const std::string& place);
 

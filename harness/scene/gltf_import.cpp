@@ -33,8 +33,10 @@ Scene build(File& file, gltf::Bytes bytes, int scene_index, uint32_t seed, const
   gltf::Container container = gltf::open_container(file, bytes);
   {
     Json raw = parse_json(file, container.json);
+    gltf::check_version_and_extensions(file, raw);
     file.json = gltf::checked_description(file, raw);
     gltf::note_what_is_ignored(file, raw);
+    gltf::note_unknown_extensions(file, raw);
   }
   file.model = gltf::parse_model(file);
   gltf::load_buffers(file, container.binary);
@@ -91,12 +93,13 @@ Scene build_or_explain(File& file, gltf::Bytes bytes, int scene_index, uint32_t 
 
 }  // namespace
 
-Scene import_gltf(const std::filesystem::path& path, int scene_index, uint32_t seed,
-                  const glm::dvec3& offset) {
+Scene import_gltf(const std::filesystem::path& path, int scene_index, uint32_t seed, const glm::dvec3& offset,
+                  const std::filesystem::path& root) {
   std::vector<std::byte> bytes = read_file(path);
   File file;
   file.name = path.string();
   file.folder = path.parent_path();
+  file.root = root.empty() ? file.folder : root;
   file.external = true;
   return build_or_explain(file, bytes, scene_index, seed, offset);
 }

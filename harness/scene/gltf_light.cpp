@@ -78,11 +78,15 @@ void load_side_file(const File& file, const std::string& name, Scene& scene) {
 void load_lights(File& file, const std::vector<PlacedNode>& nodes, const Movement& movement,
                  const glm::dvec3& center, Scene& scene) {
   size_t without_range = 0;
-  uint32_t directional = 0, without_scale = 0;
+  uint32_t directional = 0, hidden = 0, without_scale = 0;
   const auto punctual = "/extensions/KHR_lights_punctual/light"_json_pointer;
   for (const PlacedNode& placed : nodes) {
     const Json& node = file.json["nodes"][placed.node];
     if (!node.contains(punctual)) continue;
+    if (!placed.visible) {
+      ++hidden;
+      continue;
+    }
     auto index = node[punctual].get<size_t>();
     if (file.model.lights[index].type == "directional") {
       ++directional;
@@ -115,6 +119,7 @@ void load_lights(File& file, const std::vector<PlacedNode>& nodes, const Movemen
         "{} directional light{} (a sun) {} not used: the bench's lights have a place and a radius",
         directional, directional == 1 ? "" : "s", directional == 1 ? "is" : "are"));
   }
+  if (hidden) scene.rejected_lights["hidden (KHR_node_visibility)"] = hidden;
   if (without_scale) scene.rejected_lights["its node has scale 0"] = without_scale;
   if (without_range)
     file.notes.push_back(std::to_string(without_range) +

@@ -2,28 +2,17 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <tuple>
 
-#include "harness/scene/gltf_parts.h"
+#include "harness/scene/gltf_placement.h"
+#include "harness/scene/gltf_vertices.h"
 
 namespace ml::gltf {
 namespace {
-
-glm::dvec3 triple(const std::vector<double>& values, size_t i) {
-  return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
-}
 
 // For normals: the inverse transpose up to a positive factor, so that it exists for flattened nodes too.
 glm::dmat3 normal_matrix(const glm::dmat3& m) {
   glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
   return glm::determinant(m) < 0 ? -cofactors : cofactors;
-}
-
-// A unit vector, or zero where there is none. A vector that is unit length in float already keeps its bits.
-glm::dvec3 unit(const glm::dvec3& v) {
-  double length = glm::length(v);
-  if (!std::isfinite(length) || length < 1e-150) return glm::dvec3(0);
-  return std::abs(length - 1) < 1e-6 ? v : v / length;
 }
 
 // The corners of the triangles that a list, strip or fan of `corners` means; incomplete ones at the end are
@@ -46,18 +35,31 @@ class MeshLoader {
   MeshLoader(File& file, Scene& scene) : file_(file), scene_(scene), triangles_(scene.materials.size()) {}
 
   void add_node(const PlacedNode& placed) {
-    int mesh = file_.model.nodes[placed.node].mesh;
-    if (mesh < 0) return;
-    const auto& primitives = file_.model.meshes[static_cast<size_t>(mesh)].primitives;
-    shared_.clear();
-    for (size_t i = 0; i < primitives.size(); ++i)
-      add_primitive(placed, primitives[i],
-                    at("meshes", static_cast<size_t>(mesh)) + "." + at("primitives", i));
+    const tinygltf::Node& node = file_.model.nodes[placed.node];
+    if (node.mesh < 0) return;
+    if (!placed.visible) {
+      ++hidden_;
+      return;
+    }
+    std::vector<glm::dmat4> joints;
+    if (node.skin >= 0) {
+      if (worlds_.empty()) worlds_ = world_transforms(file_);
+      joints = joint_matrices(file_, static_cast<size_t>(node.skin), worlds_);
+    }
+    const std::vector<glm::dmat4> worlds = instance_transforms(file_, placed);
+    check_instances(placed, worlds.size());
+    for (const glm::dmat4& world : worlds) {
+      add_mesh(placed, world, joints);
+      if (!joints.empty()) break;  // the joints say where it stands, once
+    }
   }
 
   glm::dvec3 finish(const glm::dvec3* given_center) {
     note(not_triangles_, "primitives are points or lines, which are not drawn");
     note(without_positions_, "primitives have no positions, and are not drawn");
+    note(hidden_, "meshes are hidden (KHR_node_visibility), and are not drawn");
+    note(without_coordinates_,
+         "primitives lack the texture coordinates that their textures ask for, and show one point of them");
     note(without_material_, "primitives have no material, and get white, not metallic, roughness 0.8");
     size_t corners = 0;
     for (const auto& list : triangles_) corners += list.size();
@@ -76,6 +78,7 @@ class MeshLoader {
                               static_cast<uint32_t>(list.size()), static_cast<uint32_t>(material)});
       scene_.indices.insert(scene_.indices.end(), list.begin(), list.end());
     }
+    finish_details(scene_);
     mend_normals();
     scene_.bounds = {scene_.vertices[0].position, scene_.vertices[0].position};
     for (const Vertex& vertex : scene_.vertices) {
@@ -86,49 +89,54 @@ class MeshLoader {
   }
 
  private:
-  struct Source {
-    size_t positions;
-    int normals, coordinates;
-    TextureMapping mapping;
-    std::string place;
-  };
-
   void note(size_t count, const std::string& what) {
     if (count) file_.notes.push_back(std::to_string(count) + " " + what);
   }
 
-  void add_primitive(const PlacedNode& placed, const tinygltf::Primitive& primitive,
-                     const std::string& place) {
+  void add_mesh(const PlacedNode& placed, const glm::dmat4& world, const std::vector<glm::dmat4>& joints) {
+    auto mesh = static_cast<size_t>(file_.model.nodes[placed.node].mesh);
+    const auto& primitives = file_.model.meshes[mesh].primitives;
+    shared_.clear();
+    for (size_t i = 0; i < primitives.size(); ++i) {
+      const std::string place = at("meshes", mesh) + "." + at("primitives", i);
+      if (!is_drawn(primitives[i])) continue;
+      bool skinned = !joints.empty() && VertexTransforms::is_skinned(primitives[i]);
+      add_primitive(
+          placed, primitives[i], place,
+          skinned ? VertexTransforms(file_, primitives[i], joints, place) : VertexTransforms(world));
+    }
+  }
+
+  bool is_drawn(const tinygltf::Primitive& primitive) {
+    bool triangles = primitive.mode < 0 || primitive.mode >= TINYGLTF_MODE_TRIANGLES,
+         positions = primitive.attributes.contains("POSITION");
+    not_triangles_ += !triangles;
+    without_positions_ += triangles && !positions;
+    return triangles && positions;
+  }
+
+  void add_primitive(const PlacedNode& placed, const tinygltf::Primitive& primitive, const std::string& place,
+                     const VertexTransforms& transforms) {
     int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
-    auto positions = primitive.attributes.find("POSITION");
-    not_triangles_ += mode < TINYGLTF_MODE_TRIANGLES;
-    without_positions_ += mode >= TINYGLTF_MODE_TRIANGLES && positions == primitive.attributes.end();
-    if (mode < TINYGLTF_MODE_TRIANGLES || positions == primitive.attributes.end()) return;
-
-    Source source{static_cast<size_t>(positions->second), -1, -1, texture_mapping(file_, primitive.material),
-                  place};
-    if (auto found = primitive.attributes.find("NORMAL"); found != primitive.attributes.end())
-      source.normals = found->second;
-    if (auto found = primitive.attributes.find("TEXCOORD_" + std::to_string(source.mapping.set));
-        found != primitive.attributes.end())
-      source.coordinates = found->second;
-
+    const VertexSource source(file_, primitive, place);
     size_t count = file_.model.accessors[source.positions].count;
     std::vector<uint32_t> corners = triangle_corners(primitive, mode, count, place);
     without_material_ += primitive.material < 0;
+    without_coordinates_ += source.lacks_coordinates;
     size_t material =
         primitive.material < 0 ? triangles_.size() - 1 : static_cast<size_t>(primitive.material);
     std::vector<uint32_t>& list = triangles_[material];
     check_room(source.normals < 0 ? corners.size() : count, corners.size(), place);
 
-    glm::dmat3 linear(placed.world);
-    if (glm::determinant(linear) < 0)
-      for (size_t i = 0; i + 2 < corners.size(); i += 3) std::swap(corners[i + 1], corners[i + 2]);
+    // Mirrored triangles are turned over, so that their fronts stay fronts.
+    for (size_t i = 0; i + 2 < corners.size(); i += 3)
+      if (glm::determinant(glm::dmat3(transforms.of(corners[i]))) < 0)
+        std::swap(corners[i + 1], corners[i + 2]);
     if (source.normals >= 0) {
-      uint32_t base = shared_vertices(placed, source);
+      uint32_t base = shared_vertices(placed, source, transforms);
       for (uint32_t corner : corners) list.push_back(base + corner);
     } else {
-      add_flat(placed, source, corners, list);
+      add_flat(placed, source, transforms, corners, list);
     }
   }
 
@@ -153,6 +161,19 @@ class MeshLoader {
     return as_triangles(corners, mode);
   }
 
+  // The same for all instances of a node, before the first of them is made.
+  void check_instances(const PlacedNode& placed, size_t instances) const {
+    auto mesh = static_cast<size_t>(file_.model.nodes[placed.node].mesh);
+    size_t vertices = 0;
+    for (const tinygltf::Primitive& primitive : file_.model.meshes[mesh].primitives)
+      if (auto found = primitive.attributes.find("POSITION"); found != primitive.attributes.end())
+        vertices += std::min(file_.model.accessors[static_cast<size_t>(found->second)].count, max_vertices);
+    if (instances > 1 && vertices > (max_vertices - scene_.vertices.size()) / instances)
+      file_.fail(at("nodes", placed.node), "with its " + std::to_string(instances) +
+                                               " instances the scene has more than " +
+                                               std::to_string(max_vertices) + " vertices");
+  }
+
   // Before memory is asked for: one mesh may stand on very many nodes.
   void check_room(size_t vertices, size_t corners, const std::string& place) {
     corners_ += corners;
@@ -160,82 +181,58 @@ class MeshLoader {
       file_.fail(place, "the scene has more than " + std::to_string(max_vertices) + " vertices or triangles");
   }
 
-  std::vector<double> attribute(int accessor, int components, size_t count, const Source& source,
-                                const char* name) const {
-    std::string place = source.place + ".attributes." + name;
-    auto index = static_cast<size_t>(accessor);
-    if (file_.model.accessors[index].count != count)
-      file_.fail(place, at("accessors", index) + " has " +
-                            std::to_string(file_.model.accessors[index].count) + " elements, but there are " +
-                            std::to_string(count) + " positions");
-    return read_numbers(file_, index, components, place);
-  }
-
-  std::vector<glm::dvec3> world_positions(const PlacedNode& placed, const Source& source) const {
-    std::vector<double> values =
-        read_numbers(file_, source.positions, 3, source.place + ".attributes.POSITION");
-    std::vector<glm::dvec3> result(values.size() / 3);
-    for (size_t i = 0; i < result.size(); ++i) {
-      result[i] = glm::dvec3(placed.world * glm::dvec4(triple(values, i), 1));
-      for (int c = 0; c < 3; ++c)
-        if (!(std::abs(result[i][c]) <= max_coordinate))
-          file_.fail(source.place, "on " + at("nodes", placed.node) + " its vertex " + std::to_string(i) +
-                                       " lies more than 1e9 m from the origin");
-    }
-    return result;
-  }
-
-  std::vector<glm::vec2> coordinates(const Source& source, size_t count) const {
-    std::vector<glm::vec2> result(count, glm::vec2(0));
-    if (source.coordinates < 0) return result;
-    std::string name = "TEXCOORD_" + std::to_string(source.mapping.set);
-    std::vector<double> values = attribute(source.coordinates, 2, count, source, name.c_str());
-    const TextureMapping& map = source.mapping;
-    double c = map.rotation == 0 ? 1 : std::cos(map.rotation),
-           s = map.rotation == 0 ? 0 : std::sin(map.rotation);
-    for (size_t i = 0; i < count; ++i) {
-      double u = values[2 * i] * map.scale.x, v = values[2 * i + 1] * map.scale.y;
-      glm::dvec2 moved(c * u + s * v + map.offset.x, c * v - s * u + map.offset.y);
-      result[i] = glm::vec2(glm::clamp(moved, -1e6, 1e6));
-    }
-    return result;
+  glm::dvec3 world_position(const PlacedNode& placed, const VertexSource& source, const glm::dmat4& transform,
+                            const VertexAttributes& attributes, size_t i) const {
+    const glm::dvec3 position(transform * glm::dvec4(attributes.positions[i], 1));
+    for (int c = 0; c < 3; ++c)
+      if (!(std::abs(position[c]) <= max_coordinate))
+        file_.fail(source.place, "on " + at("nodes", placed.node) + " its vertex " + std::to_string(i) +
+                                     " lies more than 1e9 m from the origin");
+    return position;
   }
 
   // The first of the vertices that all primitives of this node with the same attributes share.
-  uint32_t shared_vertices(const PlacedNode& placed, const Source& source) {
-    const TextureMapping& map = source.mapping;
-    Key key{source.positions, source.normals, source.coordinates, map.offset.x,
-            map.offset.y,     map.scale.x,    map.scale.y,        map.rotation};
-    if (auto found = shared_.find(key); found != shared_.end()) return found->second;
-    std::vector<glm::dvec3> positions = world_positions(placed, source);
-    std::vector<double> normals = attribute(source.normals, 3, positions.size(), source, "NORMAL");
-    std::vector<glm::vec2> uv = coordinates(source, positions.size());
-    glm::dmat3 matrix = normal_matrix(glm::dmat3(placed.world));
+  uint32_t shared_vertices(const PlacedNode& placed, const VertexSource& source,
+                           const VertexTransforms& transforms) {
+    std::vector<double> key = source.key();
+    // Joints and weights are a primitive's own.
+    if (auto found = shared_.find(key); transforms.is_one() && found != shared_.end()) return found->second;
+    const VertexAttributes attributes(file_, source);
     auto base = static_cast<uint32_t>(scene_.vertices.size());
-    for (size_t i = 0; i < positions.size(); ++i)
-      add_vertex(positions[i], unit(matrix * triple(normals, i)), uv[i]);
-    shared_.emplace(key, base);
+    for (size_t i = 0; i < attributes.positions.size(); ++i) {
+      const glm::dmat4 transform = transforms.of(i);
+      const glm::dmat3 linear(transform);
+      add_vertex(world_position(placed, source, transform, attributes, i),
+                 unit(normal_matrix(linear) * attributes.normals[i]), attributes, i);
+      add_details(attributes, i, &linear, scene_);
+    }
+    if (transforms.is_one()) shared_.emplace(std::move(key), base);
     return base;
   }
 
   // glTF: a mesh without normals is drawn with flat ones, so that no two triangles share a vertex.
-  void add_flat(const PlacedNode& placed, const Source& source, const std::vector<uint32_t>& corners,
-                std::vector<uint32_t>& list) {
-    std::vector<glm::dvec3> positions = world_positions(placed, source);
-    std::vector<glm::vec2> uv = coordinates(source, positions.size());
+  void add_flat(const PlacedNode& placed, const VertexSource& source, const VertexTransforms& transforms,
+                const std::vector<uint32_t>& corners, std::vector<uint32_t>& list) {
+    const VertexAttributes attributes(file_, source);
+    std::vector<glm::dvec3> positions;
+    for (size_t i = 0; i < attributes.positions.size(); ++i)
+      positions.push_back(world_position(placed, source, transforms.of(i), attributes, i));
     for (size_t i = 0; i + 2 < corners.size(); i += 3) {
       glm::dvec3 a = positions[corners[i]], b = positions[corners[i + 1]], c = positions[corners[i + 2]];
       glm::dvec3 normal = unit(glm::cross(b - a, c - a));
       for (size_t k = 0; k < 3; ++k) {
         list.push_back(static_cast<uint32_t>(scene_.vertices.size()));
-        add_vertex(positions[corners[i + k]], normal, uv[corners[i + k]]);
+        add_vertex(positions[corners[i + k]], normal, attributes, corners[i + k]);
+        add_details(attributes, corners[i + k], nullptr, scene_);
       }
     }
   }
 
-  void add_vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::vec2& uv) {
+  void add_vertex(const glm::dvec3& position, const glm::dvec3& normal, const VertexAttributes& attributes,
+                  size_t i) {
     positions_.push_back(position);
-    scene_.vertices.push_back({glm::vec3(0), glm::vec3(normal), uv});
+    scene_.vertices.push_back(
+        {glm::vec3(0), glm::vec3(normal), attributes.uvs[static_cast<size_t>(TextureSlot::base_color)][i]});
   }
 
   glm::dvec3 whole_center() const {
@@ -267,15 +264,15 @@ class MeshLoader {
     }
   }
 
-  using Key = std::tuple<size_t, int, int, double, double, double, double, double>;
-
   File& file_;
   Scene& scene_;
-  std::vector<glm::dvec3> positions_;             // m, in the file's world; beside scene_.vertices
-  std::vector<std::vector<uint32_t>> triangles_;  // for each material
-  std::map<Key, uint32_t> shared_;
+  std::vector<glm::dvec3> positions_;               // m, in the file's world; beside scene_.vertices
+  std::vector<std::vector<uint32_t>> triangles_;    // for each material
+  std::map<std::vector<double>, uint32_t> shared_;  // by VertexSource::key()
+  std::vector<glm::dmat4> worlds_;                  // of all nodes, once a skin asks for them
   size_t corners_ = 0;
-  size_t not_triangles_ = 0, without_positions_ = 0, without_material_ = 0;
+  size_t not_triangles_ = 0, without_positions_ = 0, without_material_ = 0, without_coordinates_ = 0,
+         hidden_ = 0;
 };
 
 }  // namespace

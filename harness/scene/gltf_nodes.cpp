@@ -77,7 +77,42 @@ std::vector<int> check_tree(const File& file) {
   return parents;
 }
 
-std::vector<PlacedNode> place_nodes(const File& file, int scene_index) {
+std::vector<glm::dmat4> world_transforms(const File& file) {
+  const std::vector<int> parents = check_tree(file);
+  std::vector<glm::dmat4> worlds(parents.size(), glm::dmat4(1));
+  std::vector<size_t> pending;
+  for (size_t i = 0; i < parents.size(); ++i)
+    if (parents[i] < 0) pending.push_back(i);
+  while (!pending.empty()) {
+    const size_t node = pending.back();
+    pending.pop_back();
+    const glm::dmat4 above = parents[node] < 0 ? glm::dmat4(1) : worlds[static_cast<size_t>(parents[node])];
+    worlds[node] = above * local_transform(file, node);
+    for (int child : file.model.nodes[node].children) pending.push_back(static_cast<size_t>(child));
+  }
+  return worlds;
+}
+
+namespace {
+
+bool is_visible(const File& file, size_t node) {
+  return file.json["nodes"][node].value("/extensions/KHR_node_visibility/visible"_json_pointer, true);
+}
+
+// A node that a scene lists, as its parents place it.
+PlacedNode root_at(const File& file, const std::vector<int>& parents, size_t node) {
+  PlacedNode root{node};
+  for (int up = parents[node]; up >= 0; up = parents[static_cast<size_t>(up)]) {
+    const auto above = static_cast<size_t>(up);
+    root.world = local_transform(file, above) * root.world;
+    root.visible = root.visible && is_visible(file, above);
+  }
+  return root;
+}
+
+}  // namespace
+
+std::vector<PlacedNode> place_nodes(File& file, int scene_index) {
   const tinygltf::Model& model = file.model;
   std::vector<int> parents = check_tree(file);
   std::vector<PlacedNode> placed;
@@ -95,24 +130,34 @@ std::vector<PlacedNode> place_nodes(const File& file, int scene_index) {
                               std::to_string(model.scenes.size()));
     const std::vector<int>& roots = model.scenes[static_cast<size_t>(wanted)].nodes;
     std::vector<char> listed(model.nodes.size(), 0);
+    for (int root : roots) listed[static_cast<size_t>(root)] = 1;
+    size_t not_roots = 0;
     for (size_t i = roots.size(); i-- > 0;) {
       auto root = static_cast<size_t>(roots[i]);
-      std::string place = at("scenes", static_cast<size_t>(wanted)) + "." + at("nodes", i);
-      if (parents[root] >= 0) file.fail(place, at("nodes", root) + " is not a root");
-      if (listed[root]) file.fail(place, at("nodes", root) + " is listed twice");
-      listed[root] = 1;
-      pending.push_back({root});
+      bool below = false;  // a node that is listed too, and brings this one along
+      for (int up = parents[root]; up >= 0 && !below; up = parents[static_cast<size_t>(up)])
+        below = listed[static_cast<size_t>(up)] != 0;
+      const bool again = listed[root] == 2;
+      not_roots += parents[root] >= 0 || again;
+      if (below || again) continue;
+      listed[root] = 2;
+      pending.push_back(root_at(file, parents, root));
     }
+    if (not_roots)
+      file.notes.push_back(std::to_string(not_roots) +
+                           " nodes that the scene lists lie below others or are listed twice; each is drawn "
+                           "once, where its parents put it");
   }
   while (!pending.empty()) {
     PlacedNode next = pending.back();
     pending.pop_back();
     next.world = next.world * local_transform(file, next.node);
+    next.visible = next.visible && is_visible(file, next.node);
     if (!all_finite(next.world)) file.fail(at("nodes", next.node), "its world transform is not finite");
     placed.push_back(next);
     const std::vector<int>& children = model.nodes[next.node].children;
     for (size_t i = children.size(); i-- > 0;)
-      pending.push_back({static_cast<size_t>(children[i]), next.world});
+      pending.push_back({static_cast<size_t>(children[i]), next.world, next.visible});
   }
   return placed;
 }

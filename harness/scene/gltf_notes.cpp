@@ -1,3 +1,5 @@
+#include <string>
+
 #include "harness/scene/gltf_file.h"
 
 namespace ml::gltf {
@@ -16,41 +18,43 @@ void add_note(File& file, size_t count, const std::string& what) {
   if (count) file.notes.push_back(std::to_string(count) + " " + what);
 }
 
+// Attributes are sets with numbers (TEXCOORD_0): whether a name is a set of that kind which is not read.
+bool is_further_set(const std::string& name, const std::string& kind, int read) {
+  if (!name.starts_with(kind) || name.size() == kind.size()) return false;
+  for (int i = 0; i < read; ++i)
+    if (name == kind + std::to_string(i)) return false;
+  return true;
+}
+
+void note_attributes(File& file, const Json& raw) {
+  size_t morphing = 0, colors = 0, further = 0, own = 0;
+  for_each_object(raw, "meshes", [&](const Json& mesh) {
+    for_each_object(mesh, "primitives", [&](const Json& primitive) {
+      morphing += primitive.contains("targets");
+      auto attributes = primitive.find("attributes");
+      if (attributes == primitive.end() || !attributes->is_object()) return;
+      for (const auto& [name, accessor] : attributes->items()) {
+        colors += is_further_set(name, "COLOR_", 1);
+        further += is_further_set(name, "TEXCOORD_", 8) || is_further_set(name, "JOINTS_", 8) ||
+                   is_further_set(name, "WEIGHTS_", 8);
+        own += name.starts_with("_");
+      }
+    });
+  });
+  add_note(file, morphing, "primitives have morph targets, which are ignored");
+  add_note(file, colors, "sets of vertex colours behind the first are ignored");
+  add_note(file, further, "sets of texture coordinates, joints or weights behind the eighth are ignored");
+  add_note(file, own, "vertex attributes of the file's own (_NAME) are ignored");
+}
+
 }  // namespace
 
 void note_what_is_ignored(File& file, const Json& raw) {
-  size_t colored = 0, morphing = 0, skins = 0, textured = 0, extended = 0, emissive = 0, wrapped = 0;
-  for_each_object(raw, "meshes", [&](const Json& mesh) {
-    for_each_object(mesh, "primitives", [&](const Json& primitive) {
-      auto attributes = primitive.find("attributes");
-      colored += attributes != primitive.end() && attributes->is_object() && attributes->contains("COLOR_0");
-      morphing += primitive.contains("targets");
-    });
-  });
-  for_each_object(raw, "skins", [&](const Json&) { ++skins; });
-  for_each_object(raw, "materials", [&](const Json& material) {
-    auto surface = material.find("pbrMetallicRoughness");
-    bool metal_map =
-        surface != material.end() && surface->is_object() && surface->contains("metallicRoughnessTexture");
-    textured += metal_map || material.contains("normalTexture") || material.contains("occlusionTexture");
-    emissive += material.contains("emissiveTexture") || material.contains("emissiveFactor");
-    extended += material.contains("extensions");
-  });
-  for_each_object(raw, "samplers", [&](const Json& sampler) {
-    for (const char* key : {"wrapS", "wrapT"})
-      if (auto found = sampler.find(key); found != sampler.end() && *found != TINYGLTF_TEXTURE_WRAP_REPEAT) {
-        ++wrapped;
-        break;
-      }
-  });
-  add_note(file, colored, "primitives have vertex colours, which are ignored");
-  add_note(file, morphing, "primitives have morph targets, which are ignored");
-  add_note(file, skins, "skins are ignored: their meshes stand in their rest pose");
-  add_note(file, textured,
-           "materials have metallic-roughness, normal or occlusion textures, which are ignored");
-  add_note(file, emissive, "materials emit light by themselves, which is ignored");
-  add_note(file, extended, "materials have extensions, which are ignored");
-  add_note(file, wrapped, "texture samplers clamp or mirror; all textures are repeated");
+  note_attributes(file, raw);
+  size_t occluded = 0;
+  for_each_object(raw, "materials",
+                  [&](const Json& material) { occluded += material.contains("occlusionTexture"); });
+  add_note(file, occluded, "materials have occlusion textures, which are ignored");
 }
 
 }  // namespace ml::gltf

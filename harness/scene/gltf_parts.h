@@ -15,12 +15,16 @@ namespace ml::gltf {
 struct PlacedNode {
   size_t node = 0;
   glm::dmat4 world{1};
+  bool visible = true;  // neither it nor a node above it is hidden (KHR_node_visibility)
 };
 // Proves that the nodes form trees (no cycle, no second parent, no more than max_depth levels).
 // Returns each node's parent, -1 for roots.
 std::vector<int> check_tree(const File& file);
-// The nodes of a scene in depth-first order with their world transforms; all finite.
-std::vector<PlacedNode> place_nodes(const File& file, int scene_index);
+// The nodes of a scene in depth-first order with their world transforms; all finite. A scene may list nodes
+// below others, which glTF does not allow: each comes once, where its parents put it, with a note.
+std::vector<PlacedNode> place_nodes(File& file, int scene_index);
+// The world transform of every node of the file, as check_tree's parents have it; not proven finite.
+std::vector<glm::dmat4> world_transforms(const File& file);
 // A node's own transform; for one that is given as a matrix `pose` stays empty.
 glm::dmat4 local_transform(const File& file, size_t node);
 Pose local_pose(const File& file, size_t node);
@@ -45,19 +49,25 @@ Movement load_movement(File& file, std::vector<PlacedNode>& nodes);
 glm::dvec3 load_meshes(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3* center,
                        Scene& scene);
 
-// gltf_material.cpp. The materials in the file's order and the textures that they use. At the end comes a
-// material for primitives without one; it is dropped by load_meshes when nothing uses it. "forward" true in a
-// material's extras.manylights makes it a forward material.
+// gltf_material.cpp. The materials in the file's order and the textures that they use; a texture that cannot
+// be read is left out, with a note. At the end comes a material for primitives without one; it is dropped by
+// load_meshes when nothing uses it. "forward" true in a material's extras.manylights makes it a forward
+// material.
 void load_materials(File& file, Scene& scene);
 
-// Where a material's base colour texture finds its coordinates, and how they are moved
-// (KHR_texture_transform).
+// What a material takes textures for.
+enum class TextureSlot : size_t { base_color, metallic_roughness, normal, emission };
+constexpr size_t texture_slots = 4;
+bool has_texture(const File& file, int material, TextureSlot slot);
+
+// Where a material's texture finds its coordinates, and how they are moved (KHR_texture_transform).
 struct TextureMapping {
   int set = 0;  // of TEXCOORD_n
   glm::dvec2 offset{0}, scale{1};
   double rotation = 0;  // radians
+  bool operator==(const TextureMapping&) const = default;
 };
-TextureMapping texture_mapping(const File& file, int material);
+TextureMapping texture_mapping(const File& file, int material, TextureSlot slot);
 
 // gltf_light.cpp. Lights of the nodes and of the side file, relative to `center`. Shapes that
 // KHR_lights_punctual does not have stand in the light's extras.manylights: "shape" "capsule" or "box" on a
@@ -73,7 +83,7 @@ void load_lights(File& file, const std::vector<PlacedNode>& nodes, const Movemen
 void load_cameras(File& file, const std::vector<PlacedNode>& nodes, const Movement& movement,
                   const glm::dvec3& center, Scene& scene);
 
-// gltf_material.cpp. Refuses images that no honest file holds, before memory is asked for; `pixels_left` is
+// gltf_textures.cpp. Refuses images that no honest file holds, before memory is asked for; `pixels_left` is
 // what may still be decoded.
 void check_image_size(const File& file, const std::string& place, uint32_t width, uint32_t height,
                       size_t bytes, size_t pixels_left);

@@ -61,7 +61,7 @@ Scene load_scene(const SceneSpec& spec) {
   }
   Scene scene;
   if (!spec.gltf.empty()) {
-    scene = import_gltf(spec.gltf, spec.gltf_scene, spec.seed, spec.offset);
+    scene = import_gltf(spec.gltf, spec.gltf_scene, spec.seed, spec.offset, spec.root);
   } else if (spec.procedural == "canyon") {
     scene = make_canyon(spec.seed);
   } else if (spec.procedural == "citadel") {

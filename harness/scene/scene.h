@@ -27,11 +27,40 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 32);
 
-// 8-bit sRGB colour with linear alpha, row by row from the top.
+// What some levels know of their vertices beyond Vertex. Each list is empty, which means its default for all
+// vertices, or has one element a vertex.
+struct VertexDetails {
+  // Unit direction of growing u of the normal texture, in w the sign of the bitangent w * cross(normal,
+  // tangent); w 0: there is none, and it is derived from the texture coordinates.
+  std::vector<glm::vec4> tangents;
+  std::vector<glm::vec4> colors;  // linear, multiply base colour and alpha; at least 0, default 1
+  // Texture coordinates of these textures where they are not Vertex::uv.
+  std::vector<glm::vec2> metallic_roughness_uv, normal_uv, emission_uv;
+
+  bool empty() const {
+    return tangents.empty() && colors.empty() && metallic_roughness_uv.empty() && normal_uv.empty() &&
+           emission_uv.empty();
+  }
+};
+
+// How a texture is read between and beyond its pixels, as glTF has it.
+enum class Filter : uint32_t { nearest, linear };
+enum class MipFilter : uint32_t { none, nearest, linear };  // none: the picture alone, no smaller ones
+enum class Wrap : uint32_t { repeat, mirrored_repeat, clamp_to_edge };
+struct Sampler {
+  Filter magnify = Filter::linear, minify = Filter::linear;
+  MipFilter mip = MipFilter::none;
+  Wrap u = Wrap::repeat, v = Wrap::repeat;
+  auto operator<=>(const Sampler&) const = default;
+};
+
+// 8 bits a channel, row by row from the top. Colours are sRGB with linear alpha, data is linear: which of the
+// two follows from what a material takes it for.
 struct Texture {
   std::string name;
   uint32_t width = 0, height = 0;
   std::vector<uint8_t> rgba;  // width * height * 4
+  Sampler sampler = {};
 };
 
 enum class AlphaMode : uint32_t {
@@ -48,6 +77,13 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
+  // Indices into Scene::textures as above. Roughness is multiplied by green and metallic by blue of the
+  // first; the second holds normals in tangent space, x and y multiplied by normal_scale.
+  int metallic_roughness_texture = -1, normal_texture = -1;
+  float normal_scale = 1;
+  // W/m^2/sr that the surface gives by itself, linear, at least 0; multiplied by the texture.
+  glm::vec3 emission{0};
+  int emission_texture = -1;
   bool forward = false;  // lit in its mesh's own fragment shader, and left out of the deferred pass
 };
 
@@ -68,6 +104,7 @@ struct Scene {
   std::string name;
   glm::dvec3 origin{0};  // m, in the file's own world
   std::vector<Vertex> vertices;
+  VertexDetails details;
   std::vector<uint32_t> indices;  // triangles, counter-clockwise from outside
   std::vector<Draw> draws;
   std::vector<Material> materials;  // at least one
@@ -105,8 +142,11 @@ std::vector<SceneInfo> procedural_scenes();
 struct SceneSpec {
   std::string procedural;      // name, or empty
   std::filesystem::path gltf;  // file, or empty
-  int gltf_scene = -1;         // which of the file's scenes; -1 is the file's default
-  uint32_t seed = 1;           // procedural generation and automatic camera paths
+  // The folder in or below which the file's buffers and textures must lie, so that a level cannot read what
+  // is none of its business; empty: the file's own folder.
+  std::filesystem::path root;
+  int gltf_scene = -1;  // which of the file's scenes; -1 is the file's default
+  uint32_t seed = 1;    // procedural generation and automatic camera paths
   glm::dvec3 offset{
       0};  // m, added to the whole level in double: the far-from-origin test; |component| <= 1e9
   bool two_sided =
@@ -120,8 +160,9 @@ LightDefaults light_defaults(const SceneSpec& spec);
 Scene load_scene(const SceneSpec& spec);
 
 // Reads a .gltf or .glb. A file without a camera gets automatic paths.
-Scene import_gltf(const std::filesystem::path& file, int scene_index, uint32_t seed,
-                  const glm::dvec3& offset);
+// `root`: SceneSpec::root.
+Scene import_gltf(const std::filesystem::path& file, int scene_index, uint32_t seed, const glm::dvec3& offset,
+                  const std::filesystem::path& root = {});
 // The same from memory, for tests and fuzzing; `name` stands in for the file name in errors, and external
 // buffers are refused.
 Scene import_gltf_memory(std::span<const std::byte> bytes, const std::string& name, int scene_index,

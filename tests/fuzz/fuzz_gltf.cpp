@@ -31,8 +31,18 @@ void check(const ml::Scene& scene) {
     covered += draw.index_count;
   }
   require(covered == scene.indices.size());
-  for (const ml::Material& material : scene.materials)
-    require(material.base_color_texture < static_cast<int>(scene.textures.size()));
+  for (const ml::Material& material : scene.materials) {
+    for (int texture : {material.base_color_texture, material.metallic_roughness_texture,
+                        material.normal_texture, material.emission_texture})
+      require(texture >= -1 && texture < static_cast<int>(scene.textures.size()));
+    for (int c = 0; c < 3; ++c) require(material.emission[c] >= 0 && material.emission[c] <= 1e9f);
+  }
+  const ml::VertexDetails& details = scene.details;
+  for (size_t size : {details.colors.size(), details.tangents.size(), details.metallic_roughness_uv.size(),
+                      details.normal_uv.size(), details.emission_uv.size()})
+    require(size == 0 || size == scene.vertices.size());
+  for (const glm::vec4& tangent : details.tangents)
+    require(tangent.w == 0 || std::abs(glm::length(glm::vec3(tangent)) - 1) < 1e-3f);
   for (const ml::CameraPath& path : scene.paths) {
     require(!path.keys.empty());
     for (size_t i = 1; i < path.keys.size(); ++i) require(path.keys[i].time > path.keys[i - 1].time);

@@ -7,12 +7,29 @@
 
 #include "harness/base/error.h"
 #include "harness/gpu/commands.h"
+#include "harness/gpu/memory_order.h"
 #include "tests/support/test_device.h"
 
 namespace ml::test {
 namespace {
 
 class Resources : public DeviceTest {};
+
+TEST(MemoryOrder, FallsBackToTheNextHeapThatIsLargeEnough) {
+  constexpr uint32_t local = 1, visible = 2;
+  // A discrete device: 8 GB of its own, 256 MB of that which the CPU sees, and the host's memory.
+  const gpu::MemoryType types[] = {{local, 0}, {local | visible, 1}, {visible, 2}};
+  const uint64_t heaps[] = {uint64_t{8} << 30, uint64_t{256} << 20, uint64_t{32} << 30};
+  const uint32_t upload[] = {local | visible, visible}, device[] = {local, 0};
+  auto order = [&](uint32_t allowed, uint64_t bytes, std::span<const uint32_t> wishes) {
+    return gpu::memory_order(types, heaps, allowed, bytes, wishes);
+  };
+  EXPECT_EQ(order(7, 1000, upload), (std::vector<uint32_t>{1, 2}));
+  EXPECT_EQ(order(7, uint64_t{1} << 30, upload), (std::vector<uint32_t>{2})) << "more than the heap has";
+  EXPECT_EQ(order(7, 1000, device), (std::vector<uint32_t>{0, 1, 2}));
+  EXPECT_EQ(order(4, 1000, device), (std::vector<uint32_t>{2})) << "what the resource may lie in";
+  EXPECT_EQ(order(7, uint64_t{64} << 30, device), std::vector<uint32_t>{});
+}
 
 std::vector<uint32_t> words_of(const gpu::Buffer& buffer, size_t count) {
   std::vector<uint32_t> words(count);

@@ -155,9 +155,9 @@ json random_config() {
     if (now()) config["outputs"]["heatmaps"] = json::array();
   }
   if (now())
-    config["effects"] = {
-        {one_of({"spots", "capsules", "wedges", "boxes", "probes", "specular", "alpha_mask", "forward"}),
-         one_of({"auto", "off"})}};
+    config["effects"] = {{one_of({"spots", "capsules", "wedges", "boxes", "probes", "specular", "alpha_mask",
+                                  "forward", "material_detail", "emission"}),
+                          one_of({"auto", "off"})}};
   if (now()) {
     config["shading"] = {{"targets", one_of({"one", "split"})}};
     if (now()) config["shading"]["shadow_maps"] = integer(0, 16);

@@ -73,7 +73,7 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
     "algorithms": [{"name": "clustered", "tile": 32, "zmin": 2, "refinement": true, "light_data": "duplicated"}, "brute_force"],
     "measure": {"warmup": 0, "repeats": 5, "threads": 2, "seed": 9, "mode": "whole"},
     "outputs": {"heatmaps": [2, 0], "images": [1], "trace": false},
-    "effects": {"spots": "off", "capsules": "off", "wedges": "auto", "boxes": "off", "probes": "off", "specular": "auto", "alpha_mask": "off", "forward": "off"},
+    "effects": {"spots": "off", "capsules": "off", "wedges": "auto", "boxes": "off", "probes": "off", "specular": "auto", "alpha_mask": "off", "forward": "off", "material_detail": "off", "emission": "off"},
     "shading": {"targets": "split", "shadow_maps": 4, "shadow_map_size": 512, "list_queue": "compute", "light_fetch": "storage", "test_ahead": true}})");
   EXPECT_EQ(config.name, "every");
   const ml::Setup& setup = config.setups.at(0);
@@ -127,6 +127,8 @@ TEST(ConfigReading, EveryKeyReachesItsField) {
   EXPECT_TRUE(setup.effects.specular);
   EXPECT_FALSE(setup.effects.alpha_mask);
   EXPECT_FALSE(setup.effects.forward);
+  EXPECT_FALSE(setup.effects.material_detail);
+  EXPECT_FALSE(setup.effects.emission);
   EXPECT_FALSE(setup.effects.probes);
   EXPECT_EQ(setup.shading.targets, ShadingTargets::split);
   EXPECT_EQ(setup.shading.shadow_maps, 4u);

@@ -41,16 +41,6 @@ const BadFile bad_nodes[] = {
        f.json["nodes"].push_back({{"children", {0, 0}}});
      },
      "nodes[0]: has two parents, nodes[2] and nodes[2]"},
-    {"ChildAsRoot",
-     [](auto& f) {
-       f.json["nodes"].push_back({{"children", {0}}});
-     },
-     "scenes[0].nodes[0]: nodes[0] is not a root"},
-    {"RootListedTwice",
-     [](auto& f) {
-       f.json["scenes"][0]["nodes"] = {0, 0};
-     },
-     "scenes[0].nodes[0]: nodes[0] is listed twice"},
     {"ChildOutOfRange", [](auto& f) { f.json["nodes"][0]["children"] = {9}; },
      "nodes[0].children[0]: is 9, but the file has 2 nodes"},
     {"TooDeep",
@@ -109,24 +99,31 @@ void light_up(GltfTestFile& f, const Json& light, int index = 0) {
   f.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({light});
   f.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = index;
 }
-
-void texture(GltfTestFile& f, const Json& image) {
-  f.json["materials"] = Json::array({{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}});
-  f.json["textures"] = Json::array({{{"source", 0}}});
-  f.json["images"] = Json::array({image});
-}
-
 const BadFile bad_content[] = {
     {"NoAsset", [](auto& f) { f.json.erase("asset"); }, "top level: 'asset' is missing"},
     {"OldVersion", [](auto& f) { f.json["asset"]["version"] = "1.0"; },
-     "asset.version: expected glTF 2.x, found '1.0'"},
+     "asset.version: the file is glTF 1.0, but 2.0 is needed"},
+    {"LaterVersion", [](auto& f) { f.json["asset"]["version"] = "3.0"; },
+     "asset.version: expected glTF 2.x, found '3.0'"},
     {"NewMinimum", [](auto& f) { f.json["asset"]["minVersion"] = "2.1"; },
      "asset.minVersion: expected 2.0, found '2.1'"},
     {"UnknownExtension", [](auto& f) { f.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
-     "extensionsRequired[0]: 'KHR_draco_mesh_compression' is not supported, known are KHR_lights_punctual, "
-     "KHR_mesh_quantization, KHR_texture_transform"},
+     "extensionsRequired[0]: the file needs KHR_draco_mesh_compression, which is not supported"},
+    {"DracoThatIsNotRequired",
+     [](auto& f) {
+       f.primitive()["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
+       f.json["accessors"][1].erase("bufferView");
+     },
+     "meshes[0].primitives[0]: the file needs KHR_draco_mesh_compression, which is not supported"},
+    {"MeshoptThatIsNotRequired",
+     [](auto& f) {
+       f.json["buffers"] = Json::array(
+           {{{"byteLength", f.binary.size()}},
+            {{"byteLength", 4}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}});
+     },
+     "buffers[1]: the file needs EXT_meshopt_compression, which is not supported"},
     {"MisspeltExtension", [](auto& f) { f.json["extensionsRequired"] = {"KHR_mesh_quantisation"}; },
-     "extensionsRequired[0]: 'KHR_mesh_quantisation' is not supported, did you mean "
+     "extensionsRequired[0]: the file needs KHR_mesh_quantisation, which is not supported, did you mean "
      "'KHR_mesh_quantization'?"},
     {"MeshesAsObject", [](auto& f) { f.json["meshes"] = Json::object(); },
      "nodes[0].mesh: is 0, but the file has 0 meshes"},
@@ -192,22 +189,51 @@ const BadFile bad_content[] = {
            Json::array({{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}});
      },
      "materials[0].pbrMetallicRoughness.baseColorTexture.index: is 0, but the file has 0 textures"},
-    {"ImageOfOtherBytes",
+    {"JointOutOfRange",
      [](auto& f) {
-       texture(f, {{"bufferView", 0}});
+       f.json["skins"] = Json::array({{{"joints", {0, 7}}}});
      },
-     "images[0]: not a PNG or JPEG that can be decoded: unknown image type"},
-    {"ImageOutOfNothing", [](auto& f) { texture(f, Json::object()); },
-     "images[0]: has neither a URI nor a buffer view"},
-    {"ImageTooLargeForItsBytes",
+     "skins[0].joints[1]: is 7, but the file has 2 nodes"},
+    {"SkinWithoutJoints", [](auto& f) { f.json["skins"] = Json::array({Json::object()}); },
+     "skins[0]: 'joints' is missing"},
+    {"VisibleAsNumber",
+     [](auto& f) { f.json["nodes"][0]["extensions"]["KHR_node_visibility"]["visible"] = 1; },
+     "nodes[0].extensions.KHR_node_visibility.visible: expected true or false"},
+    {"InstancesOfOtherCounts",
      [](auto& f) {
-       // The header of a PNG of 16000 x 8000 pixels, and nothing behind it.
-       std::vector<uint8_t> png = {0x89, 'P',  'N', 'G', 13,  10, 26, 10,   0,    0, 0,
-                                   13,   'I',  'H', 'D', 'R', 0,  0,  0x3e, 0x80, 0, 0,
-                                   0x1f, 0x40, 8,   6,   0,   0,  0,  0,    0,    0, 0};
-       texture(f, {{"bufferView", f.view(png)}});
+       f.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+           {"TRANSLATION", f.floats({0, 0, 0, 1, 0, 0}, "VEC3")}, {"SCALE", f.floats({1, 1, 1}, "VEC3")}};
      },
-     "images[0]: 16000 x 8000 pixels cannot come out of 33 bytes"},
+     "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.SCALE: has 1 elements, but others have 2"},
+    {"InstancesWithoutRotation",
+     [](auto& f) {
+       f.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["ROTATION"] =
+           f.floats({0, 0, 0, 0}, "VEC4");
+     },
+     "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.ROTATION: element 0 is no unit quaternion"},
+    {"JointThatTheSkinDoesNotHave",
+     [](auto& f) {
+       f.json["skins"] = Json::array({{{"joints", {0}}}});
+       f.json["nodes"][0]["skin"] = 0;
+       f.primitive()["attributes"]["JOINTS_0"] =
+           f.accessor(std::vector<uint8_t>{0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0, 0}, 5121, "VEC4");
+       f.primitive()["attributes"]["WEIGHTS_0"] = f.floats({1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0}, "VEC4");
+     },
+     "meshes[0].primitives[0].attributes.JOINTS_0: vertex 1 hangs on a joint that its skin does not have; it "
+     "has 1"},
+    {"ColorsOfOtherCount",
+     [](auto& f) {
+       f.primitive()["attributes"]["COLOR_0"] = f.floats({1, 1, 1}, "VEC3");
+     },
+     "meshes[0].primitives[0].attributes.COLOR_0: accessors[2] has 1 elements, but there are 3 positions"},
+    {"NegativeStrength",
+     [](auto& f) {
+       f.json["materials"] =
+           Json::array({{{"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", -1}}}}}}});
+     },
+     "materials[0].extensions.KHR_materials_emissive_strength.emissiveStrength: is -1, expected a number of "
+     "at "
+     "least 0.0"},
     {"OwnPlanesTurnedAround",
      [](auto& f) {
        f.json["asset"]["extras"]["manylights"] = {{"near", 10}, {"far", 1}};
@@ -291,9 +317,9 @@ TEST(GltfBadContainer, MissingFileAndFilesElsewhere) {
       import_gltf(path, -1, 1, glm::dvec3(0));
       ADD_FAILURE() << uri;
     } catch (const UsageError& error) {
-      EXPECT_EQ(
-          error.what(),
-          path + ": buffers[0].uri: expected a file in or below the folder of the glTF, found '" + uri + "'");
+      const std::string text = error.what();
+      EXPECT_TRUE(text.starts_with(path + ": buffers[0].uri: expected a file in or below ")) << text;
+      EXPECT_NE(text.find("found '" + std::string(uri) + "'"), text.npos) << text;
     }
     std::remove(path.c_str());
   }

@@ -55,6 +55,7 @@ GltfTestFile textured_file() {
   file.json["images"] =
       Json::array({{{"bufferView", file.view(tiny_png)}, {"mimeType", "image/png"}, {"name", "flag"}}});
   file.primitive()["material"] = 0;
+  file.primitive()["attributes"]["TEXCOORD_0"] = file.floats({0, 0, 0, 1, 1, 0}, "VEC2");
   return file;
 }
 
@@ -138,19 +139,49 @@ TEST(GltfMaterial, JpegIsDecoded) {
   EXPECT_EQ(scene.textures[0].rgba, (std::vector<uint8_t>{200, 200, 200, 255, 200, 200, 200, 255}));
 }
 
-TEST(GltfMaterial, BrokenJpegsAreRefused) {
+// What the level says of a picture that it draws white instead; empty where it read the picture.
+std::string trouble_with(const std::vector<uint8_t>& image) {
+  Scene scene = with_image(image);
+  EXPECT_EQ(scene.textures.empty(), scene.materials[0].base_color_texture == -1);
+  if (!scene.textures.empty()) return "";
+  EXPECT_EQ(scene.notes.size(), 1u);
+  const std::string start = "1 images cannot be read, and are drawn white (normal maps flat): images[0]: ";
+  EXPECT_TRUE(scene.notes[0].starts_with(start)) << scene.notes[0];
+  return scene.notes[0].substr(start.size());
+}
+
+TEST(GltfMaterial, BrokenJpegsAreWhite) {
   // No prefix may crash; one without a whole scan may not pass for the picture either.
   for (size_t size = 0; size + 4 < tiny_jpeg.size(); ++size)
-    EXPECT_THROW(with_image({tiny_jpeg.begin(),
-                             tiny_jpeg.begin() + static_cast<ptrdiff_t>(std::max<size_t>(size, 1))}),
-                 UsageError)
+    EXPECT_NE(trouble_with(
+                  {tiny_jpeg.begin(), tiny_jpeg.begin() + static_cast<ptrdiff_t>(std::max<size_t>(size, 1))}),
+              "")
         << size;
   // Huffman sizes that add up to more than the 256 codes a table has room for.
   std::vector<uint8_t> bad = tiny_jpeg;
   for (size_t i = 0; i + 21 < bad.size(); ++i)
     if (bad[i] == 0xff && bad[i + 1] == 0xc4)
       std::fill_n(bad.begin() + static_cast<ptrdiff_t>(i + 5), 16, uint8_t{255});
-  EXPECT_THROW(with_image(bad), UsageError);
+  EXPECT_NE(trouble_with(bad), "");
+}
+
+// The header of a PNG of that size, and nothing behind it.
+std::vector<uint8_t> png_header(uint32_t width, uint32_t height) {
+  std::vector<uint8_t> png = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
+  for (uint32_t side : {width, height})
+    for (int shift = 24; shift >= 0; shift -= 8) png.push_back(static_cast<uint8_t>(side >> shift));
+  png.insert(png.end(), {8, 6, 0, 0, 0, 0, 0, 0, 0});
+  return png;
+}
+
+TEST(GltfMaterial, PicturesThatAreNoneAreWhiteAndNamed) {
+  EXPECT_EQ(trouble_with({1, 2, 3, 4}), "not a PNG or JPEG that can be decoded: unknown image type");
+  EXPECT_EQ(trouble_with({'R', 'I', 'F', 'F', 9, 9, 9, 9, 'W', 'E', 'B', 'P'}),
+            "expected a PNG or a JPEG, found WebP");
+  EXPECT_EQ(trouble_with(png_header(16000, 8000)), "16000 x 8000 pixels cannot come out of 33 bytes");
+  EXPECT_EQ(trouble_with(png_header(70000, 8)),
+            "the image is too large: 70000 x 8 pixels, more than 16384 on a side");
+  EXPECT_EQ(trouble_with(png_header(0, 8)), "the image has no pixels");
 }
 
 TEST(GltfMaterial, OneImageIsDecodedOnce) {
@@ -192,6 +223,30 @@ TEST(GltfExternal, BuffersAndImagesBelowTheFolder) {
   fs::remove_all(folder);
 }
 
+TEST(GltfExternal, AboveTheFolderWhereTheRootAllowsIt) {
+  fs::path folder = fs::temp_directory_path() / ("manylights-root-" + std::to_string(getpid()));
+  fs::create_directories(folder / "levels");
+  fs::create_directories(folder / "textures");
+  GltfTestFile file = textured_file();
+  file.json["images"][0] = {{"uri", "../textures/flag.png"}};
+  write_file(folder / "textures" / "flag.png", std::as_bytes(std::span(tiny_png)));
+  write_file(folder / "levels" / "level.glb", file.glb());
+  const fs::path level = folder / "levels" / "level.glb";
+  // By itself a level reads nothing outside its folder: the texture is white, and the note says how to have
+  // it.
+  Scene alone = import_gltf(level, -1, 1, dvec3(0));
+  EXPECT_TRUE(alone.textures.empty());
+  ASSERT_EQ(alone.notes.size(), 1u);
+  EXPECT_NE(alone.notes[0].find("scene.root"), std::string::npos) << alone.notes[0];
+  EXPECT_EQ(import_gltf(level, -1, 1, dvec3(0), folder).textures.size(), 1u);
+  // A root elsewhere is no root of the level's.
+  EXPECT_TRUE(import_gltf(level, -1, 1, dvec3(0), folder / "textures" / "deeper").textures.empty());
+  // One that is missing is white too.
+  fs::remove(folder / "textures" / "flag.png");
+  EXPECT_TRUE(import_gltf(level, -1, 1, dvec3(0), folder).textures.empty());
+  fs::remove_all(folder);
+}
+
 TEST(GltfExternal, DataUris) {
   GltfTestFile file = triangle_file();
   file.json["buffers"] = Json::array(
@@ -202,16 +257,24 @@ TEST(GltfExternal, DataUris) {
 
 TEST(GltfNotes, WhatIsNotDrawnIsSaid) {
   GltfTestFile file = triangle_file();
-  file.json["materials"] = Json::array({{{"normalTexture", {{"index", 0}}},
-                                         {"emissiveFactor", {1, 1, 1}},
-                                         {"extensions", {{"KHR_materials_clearcoat", Json::object()}}}}});
-  file.json["skins"] = Json::array({Json::object()});
-  file.json["samplers"] = Json::array({{{"wrapS", 33071}}});
+  file.json["materials"] = Json::array(
+      {{{"occlusionTexture", {{"index", 0}}}, {"extensions", {{"KHR_materials_clearcoat", Json::object()}}}},
+       {{"extensions", {{"KHR_materials_clearcoat", Json::object()}}}}});
+  file.json["extensionsRequired"] = {"KHR_materials_clearcoat"};
   file.primitive()["material"] = 0;
   file.primitive()["targets"] = Json::array();
-  file.primitive()["attributes"]["COLOR_0"] = 0;
+  file.primitive()["attributes"]["COLOR_1"] = 0;
+  file.primitive()["attributes"]["_WIND"] = 0;
   Scene scene = file.load();
-  EXPECT_EQ(scene.notes.size(), 7u);
+  EXPECT_EQ(
+      scene.notes,
+      (std::vector<std::string>{
+          "the file needs KHR_materials_clearcoat, which is not supported: materials are drawn without it",
+          "1 primitives have morph targets, which are ignored",
+          "1 sets of vertex colours behind the first are ignored",
+          "1 vertex attributes of the file's own (_NAME) are ignored",
+          "1 materials have occlusion textures, which are ignored",
+          "2 uses of KHR_materials_clearcoat, which is ignored"}));
 }
 
 }  // namespace

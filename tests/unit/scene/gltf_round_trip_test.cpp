@@ -237,6 +237,18 @@ TEST_F(GltfRoundTrip, LightsInTheSideFileKeepTheirBits) {
   EXPECT_EQ(fs::file_size(file().string() + ".lights.bin"), 16u + 92u * 4097u);
 }
 
+TEST_F(GltfRoundTrip, EveryNameThatCanBeWrittenCanBeReadBack) {
+  const std::vector<Light> lights = many_lights(4097);
+  const fs::path folder = file().string() + "-names";
+  fs::create_directories(folder);
+  for (const char* name : {"a%20b.glb", "a b.glb", "a#b?c.glb", "100%.glb", "%.glb", "a:b.glb", "a\\b.glb",
+                           "\xc3\xbc \xd0\x9a.glb", "\xff.glb", "a\tb\"'.glb", "..glb", "data:;base64,a.glb"}) {
+    export_glb(busy_scene(), lights, folder / name);
+    EXPECT_EQ(import_gltf(folder / name, -1, 1, glm::dvec3(0)).lights.size(), 4097u) << name;
+  }
+  fs::remove_all(folder);
+}
+
 TEST_F(GltfRoundTrip, SideFileErrorsNameTheFile) {
   fs::path side = file().string() + ".lights.bin";
   export_glb(busy_scene(), many_lights(4097), file());

@@ -33,7 +33,7 @@ struct GltfTestFile {
   int accessor(const std::vector<T>& values, int component_type, const std::string& type,
                bool normalized = false) {
     static const std::map<std::string, size_t> widths = {
-        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
+        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
     json["accessors"].push_back({{"bufferView", view(values)},
                                  {"componentType", component_type},
                                  {"count", values.size() / widths.at(type)},

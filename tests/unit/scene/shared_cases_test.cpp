@@ -65,6 +65,55 @@ TEST(SharedCases, LightsThatCannotBeUsed) {
   EXPECT_EQ(account.used + account.dark + account.rejected(), 6u);
 }
 
+TEST(SharedCases, EveryInstanceOfAMeshIsThere) {
+  LOAD_CASE(scene, "inst_opt.glb");
+  // A floor, nine pillars, and a hundred boxes.
+  EXPECT_EQ(scene.triangle_count(), 2u + 9 * 12 + 100 * 12);
+}
+
+TEST(SharedCases, ASkinStandsByItsJoints) {
+  LOAD_CASE(scene, "skin_cm.glb");
+  float top = 0;
+  for (const Draw& draw : scene.draws)
+    if (draw.material == 1)
+      for (uint32_t i = draw.first_index; i < draw.first_index + draw.index_count; ++i)
+        top = std::max(top, scene.vertices[scene.indices[i]].position.y + static_cast<float>(scene.origin.y));
+  EXPECT_NEAR(top, 1.8f, 1e-5f);
+  EXPECT_LT(scene.bounds.size().y, 10);
+}
+
+TEST(SharedCases, ARootThatIsAChildIsDrawnOnce) {
+  LOAD_CASE(scene, "root_is_child.glb");
+  EXPECT_EQ(scene.triangle_count(), 2u + 9 * 12);
+  EXPECT_TRUE(noted(scene, "1 nodes that the scene lists lie below others"));
+}
+
+TEST(SharedCases, TexturesThatCannotBeReadAreWhite) {
+  for (const char* name : {"img_missing.glb", "img_tga.glb", "up/levels/l.glb"}) {
+    LOAD_CASE(scene, name);
+    EXPECT_TRUE(scene.textures.empty()) << name;
+    EXPECT_TRUE(noted(scene, "1 images cannot be read, and are drawn white")) << name;
+  }
+  const Scene whole = import_gltf(case_file("up/levels/l.glb"), -1, 1, glm::dvec3(0), case_file("up"));
+  EXPECT_EQ(whole.textures.size(), 1u);
+}
+
+TEST(SharedCases, SamplersAreAsTheFileHasThem) {
+  LOAD_CASE(scene, "nearest_sampler.glb");
+  ASSERT_EQ(scene.textures.size(), 1u);
+  EXPECT_EQ(scene.textures[0].sampler, (Sampler{.magnify = Filter::nearest, .minify = Filter::nearest}));
+}
+
+TEST(SharedCases, AnOlderFormatIsNamed) {
+  if (!std::filesystem::exists(case_file("gltf10.gltf"))) GTEST_SKIP() << "gltf10.gltf is not there";
+  try {
+    import_gltf(case_file("gltf10.gltf"), -1, 1, glm::dvec3(0));
+    ADD_FAILURE() << "accepted";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("the file is glTF 1.0, but 2.0 is needed"), std::string::npos);
+  }
+}
+
 TEST(SharedCases, ASunIsNamed) {
   LOAD_CASE(scene, "sun.glb");
   EXPECT_TRUE(noted(scene, "1 directional light (a sun) is not used"));
