@@ -18,15 +18,25 @@ constexpr uint32_t times_between_keys = 7;  // at which a moving camera's reach 
 constexpr double reach_margin = 1.001;
 
 // What a configuration can hold: no control characters, at most max_name bytes, whole UTF-8 letters.
-std::string typeable(const std::string& name) {
+std::string typeable(const std::string& name, size_t most = max_name) {
   std::string result = name;
-  if (result.size() > max_name) {
-    size_t end = max_name;
+  if (result.size() > most) {
+    size_t end = most;
     while (end > 0 && (static_cast<unsigned char>(result[end]) & 0xc0) == 0x80) --end;
     result.resize(end);
   }
   for (char& c : result)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
+  return result;
+}
+
+// The name itself, or with the first number that nobody has yet, still typeable.
+std::string unique(const std::string& name, std::set<std::string>& taken) {
+  std::string result = name;
+  for (int i = 2; !taken.insert(result).second; ++i) {
+    const std::string number = "-" + std::to_string(i);
+    result = typeable(name, max_name - number.size()) + number;
+  }
   return result;
 }
 
@@ -51,15 +61,12 @@ class CameraLoader {
           "them can be typed, with '_' for the rest",
           untypeable_, max_name));
     if (scene_.paths.empty()) return;
-    std::set<std::string> names;
-    for (CameraPath& path : scene_.paths) {
-      std::string name = path.name;
-      for (int i = 2; !names.insert(path.name).second; ++i) path.name = name + "-" + std::to_string(i);
-    }
     // The first camera is found under its own name and as `default`.
-    if (scene_.paths[0].name != "default") {
-      for (size_t i = 1; i < scene_.paths.size(); ++i)
-        if (scene_.paths[i].name == "default") scene_.paths[i].name = "default-2";
+    const bool is_default = scene_.paths[0].name == "default";
+    std::set<std::string> names;
+    if (!is_default) names.insert("default");
+    for (CameraPath& path : scene_.paths) path.name = unique(path.name, names);
+    if (!is_default) {
       scene_.paths.insert(scene_.paths.begin(), scene_.paths[0]);
       scene_.paths[0].name = "default";
     }

@@ -404,7 +404,8 @@ TEST(LightCount, OfAFilesLights) {
   EXPECT_EQ(parse(volume, {"lights.placement=gltf"}).resolved["lights"]["count"], "auto");
   EXPECT_EQ(parse(own).resolved["lights"]["count"], 512);
   EXPECT_EQ(parse("{}").resolved["lights"]["count"], 8192);
-  EXPECT_SAYS(refusal(R"({"lights": {"count": "all"}})"), "expected an integer from 0 to 1048576 or \"auto\"");
+  EXPECT_SAYS(refusal(R"({"lights": {"count": "all"}})"),
+              "expected an integer from 0 to 1048576 or \"auto\"");
 }
 
 }  // namespace

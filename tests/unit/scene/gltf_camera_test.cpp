@@ -57,6 +57,20 @@ TEST(GltfCamera, NamesAreUnique) {
   EXPECT_EQ(names, (std::vector<std::string>{"default", "camera-0", "twin", "twin-2", "default-2"}));
 }
 
+TEST(GltfCamera, NumbersBehindNamesMakeThemNeitherEqualNorTooLong) {
+  GltfTestFile file = triangle_file();
+  const std::string longest(100, 'x');
+  for (const std::string& name : {std::string("default"), std::string("default-2"), longest, longest}) {
+    file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
+    file.json["nodes"].push_back({{"camera", 0}, {"name", name}});
+  }
+  Scene scene = file.load();
+  std::vector<std::string> names;
+  for (const CameraPath& path : scene.paths) names.push_back(path.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"default", "camera-0", "default-2", "default-2-2", longest,
+                                             std::string(98, 'x') + "-2"}));
+}
+
 // The camera's node moves and turns; `interpolation` with keys at 0, 1 and 2 s.
 Scene moving(const std::string& interpolation, const std::vector<float>& translations,
              const std::vector<float>& rotations) {
