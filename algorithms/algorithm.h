@@ -70,6 +70,7 @@ struct FrameInput {
   // Nothing leads over from the frame before (the first frame, a camera that jumps): what is kept of that one
   // must not be used.
   bool after_cut = true;
+  double time = 0;  // s, of the clock by which the level's nodes move (NodeMotions)
   gpu_data::ViewData view;
   FrameLights lights;
   Threads* threads = nullptr;  // never null in prepare()

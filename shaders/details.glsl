@@ -4,7 +4,11 @@
 #include "shaders/bindings.glsl"
 #include "shaders/shared/material.h"
 
+#ifdef MOVING
+#include "shaders/motion.glsl"
+#else
 layout(push_constant, scalar) uniform Push { MaterialData material; };
+#endif
 layout(scalar, binding = BIND_DETAILS) readonly buffer Details { uint details[]; };
 
 // The two words of a detail; `missing` where the level has none of that kind.

@@ -6,6 +6,9 @@
 #ifdef DETAILED
 #include "shaders/details.glsl"
 #endif
+#ifdef MOVING
+#include "shaders/motion.glsl"
+#endif
 
 layout(location = 0) in vec3 in_position;  // m, relative to the scene's origin
 #ifdef MASKED
@@ -17,7 +20,11 @@ layout(location = 1) out float out_alpha;
 #endif
 
 void main() {
+#ifdef MOVING
+  vec3 relative = moved_position(in_position, view.camera);
+#else
   vec3 relative = in_position - view.camera;
+#endif
   vec3 p = vec3(dot(relative, view.right), dot(relative, view.up), dot(relative, view.forward));
   float width = view.right_edge - view.left_edge, height = view.top_edge - view.bottom_edge;
   // Reversed depth without a far plane.

@@ -57,6 +57,7 @@ Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const S
   effects_.alpha_mask = setup.effects.alpha_mask && Level::has_masked_material(*scene_);
   effects_.forward = setup.effects.forward && Level::has_forward_material(*scene_);
   effects_.clip_far = path_.clips_far;
+  effects_.motion = !scene_->draw_motions.empty();
   effects_.material_detail = setup.effects.material_detail && Level::has_material_detail(*scene_);
   effects_.emission = setup.effects.emission && Level::has_emission(*scene_);
   effects_.split_targets = setup.shading.targets == ShadingTargets::split;

@@ -73,6 +73,8 @@ const std::vector<Row>& effects() {
       {"emission",
        "surfaces that give light by themselves, added once a pixel; when a material of the scene does "
        "(effects.emission: auto | off)"},
+      {"clip_far", "surfaces beyond the camera's far plane are not seen; when a file's zfar cuts its level"},
+      {"motion", "meshes are drawn where animated nodes carry them; when the file has some"},
       {"split_targets",
        "diffuse and specular light written apart and put together by a composite pass (shading.targets: one "
        "| split)"},

@@ -84,6 +84,7 @@ void DeviceFrame::load(const FrameInput& input) {
   upload(lights_, input.lights.core);
   upload(extras_, input.lights.extra);
   if (shadow_maps_) shadow_maps_->load(input);
+  level_.move_to(input.time);
   commands_.begin(gpu::Timing::none);
   commands_.transfer(lights_);
   commands_.transfer(extras_);

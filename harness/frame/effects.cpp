@@ -21,6 +21,7 @@ std::vector<std::string> Effects::names(const gpu::Device& device) const {
   if (alpha_mask) list.emplace_back("alpha_mask");
   if (forward) list.emplace_back("forward");
   if (clip_far) list.emplace_back("clip_far");
+  if (motion) list.emplace_back("motion");
   if (material_detail) list.emplace_back("material_detail");
   if (emission) list.emplace_back("emission");
   if (split_targets) list.emplace_back("split_targets");

@@ -23,6 +23,7 @@ struct Effects {
   bool alpha_mask = false;
   bool forward = false;          // materials that are lit in a pass of their own
   bool clip_far = false;         // the camera has a far plane that cuts the level
+  bool motion = false;           // nodes carry meshes
   bool material_detail = false;  // vertex colours, metallic-roughness textures, normal maps
   bool emission = false;         // surfaces that give light by themselves, on top of all lights
   // The shading pass writes diffuse and specular light apart (shading.targets: split), not a property of the

@@ -145,6 +145,7 @@ const FrameInput& FrameSequence::at(uint32_t index) {
   set_.at(index, frames_, path_.duration(), active_, &identity_);
   storage_.fill(active_, camera_.position, shapes_);
   input_.index = index;
+  input_.time = scene_.motions ? scene_.motions->time_of(index, frames_) : 0;
   input_.after_cut = path_.cuts(index, frames_);
   input_.view = view_data(camera_, width_, height_, static_cast<uint32_t>(active_.size()));
   input_.lights = storage_.lights();

@@ -9,16 +9,21 @@
 #include "shaders/shared/material.h"
 #include "spirv/gbuffer_detailed_forward_frag.h"
 #include "spirv/gbuffer_detailed_frag.h"
+#include "spirv/gbuffer_detailed_moving_vert.h"
 #include "spirv/gbuffer_detailed_vert.h"
 #include "spirv/gbuffer_emission_forward_frag.h"
 #include "spirv/gbuffer_emission_frag.h"
 #include "spirv/gbuffer_forward_frag.h"
 #include "spirv/gbuffer_frag.h"
+#include "spirv/gbuffer_moving_vert.h"
 #include "spirv/gbuffer_vert.h"
 #include "spirv/shadow_masked_detailed_frag.h"
+#include "spirv/shadow_masked_detailed_moving_vert.h"
 #include "spirv/shadow_masked_detailed_vert.h"
 #include "spirv/shadow_masked_frag.h"
+#include "spirv/shadow_masked_moving_vert.h"
 #include "spirv/shadow_masked_vert.h"
+#include "spirv/shadow_moving_vert.h"
 #include "spirv/shadow_vert.h"
 
 namespace ml {
@@ -51,9 +56,12 @@ bool is_detailed(const Effects& effects) {
   return effects.material_detail || effects.emission;
 }
 
-std::span<const uint32_t> gbuffer_vertex(const Effects& effects) {
-  return is_detailed(effects) ? std::span<const uint32_t>(gbuffer_detailed_vert)
-                              : std::span<const uint32_t>(gbuffer_vert);
+using Module = std::span<const uint32_t>;
+
+Module gbuffer_vertex(const Effects& effects) {
+  if (is_detailed(effects))
+    return effects.motion ? Module(gbuffer_detailed_moving_vert) : Module(gbuffer_detailed_vert);
+  return effects.motion ? Module(gbuffer_moving_vert) : Module(gbuffer_vert);
 }
 
 std::span<const uint32_t> gbuffer_fragment(const Effects& effects) {
@@ -83,15 +91,19 @@ std::unique_ptr<gpu::RasterProgram> depth_program(gpu::Device& device, bool mask
   gpu::RasterState state;
   state.vertex_stride = sizeof(Vertex);
   state.attributes = {{offsetof(Vertex, position), 3}};
+  const bool moving = effects.motion;
   if (!masked)
-    return std::make_unique<gpu::RasterProgram>(device, shadow_vert, std::span<const uint32_t>{},
-                                                "shadow map", state);
+    return std::make_unique<gpu::RasterProgram>(device, moving ? Module(shadow_moving_vert) : shadow_vert,
+                                                Module{}, "shadow map", state);
   state.attributes.push_back({offsetof(Vertex, uv), 2});
   const std::string name = "shadow map (alpha mask)";
   if (is_detailed(effects))
-    return std::make_unique<gpu::RasterProgram>(device, shadow_masked_detailed_vert,
-                                                shadow_masked_detailed_frag, name, state);
-  return std::make_unique<gpu::RasterProgram>(device, shadow_masked_vert, shadow_masked_frag, name, state);
+    return std::make_unique<gpu::RasterProgram>(
+        device, moving ? Module(shadow_masked_detailed_moving_vert) : shadow_masked_detailed_vert,
+        shadow_masked_detailed_frag, name, state);
+  return std::make_unique<gpu::RasterProgram>(device,
+                                              moving ? Module(shadow_masked_moving_vert) : shadow_masked_vert,
+                                              shadow_masked_frag, name, state);
 }
 
 // What is drawn with it: nothing where no triangle has it.
@@ -177,9 +189,18 @@ Level::Level(gpu::Device& device, const Scene& scene, const Effects& effects)
                   {}};
     gpu_data::MaterialData data = material_data(material, effects, layout);
     data.forward_triangle = item.forward ? 1 + draw.first_index / 3 : 0;
-    item.push.resize(sizeof data);
+    item.push.resize(sizeof data + (effects.motion ? sizeof(gpu_data::MotionData) : 0));
     std::memcpy(item.push.data(), &data, sizeof data);
+    if (effects.motion) {
+      if (draw.motion >= 0) item.motion = scene.draw_motions[static_cast<size_t>(draw.motion)];
+      set_pose(item, DrawPose());
+    }
     items_.push_back(std::move(item));
+  }
+  if (effects.motion) {
+    motions_ = scene.motions;
+    motion_center_ = scene.motion_center;
+    move_to(motions_->begin());
   }
   bool any_masked =
       std::any_of(items_.begin(), items_.end(), [](const DrawItem& item) { return item.masked; });
@@ -188,6 +209,18 @@ Level::Level(gpu::Device& device, const Scene& scene, const Effects& effects)
   if (!effects.shadow_maps) return;
   depth_opaque_ = depth_program(device, false, effects);
   if (any_masked) depth_masked_ = depth_program(device, true, effects);
+}
+
+void Level::set_pose(DrawItem& item, const DrawPose& pose) {
+  const gpu_data::MotionData data{pose.linear, pose.pivot, pose.moved_pivot};
+  std::memcpy(item.push.data() + sizeof(gpu_data::MaterialData), &data, sizeof data);
+  item.seen = pose.seen;
+}
+
+void Level::move_to(double time) {
+  if (!motions_) return;
+  for (DrawItem& item : items_)
+    if (item.motion) set_pose(item, pose_of(*motions_, motion_center_, *item.motion, time));
 }
 
 gpu::DrawCall Level::call_of(const DrawItem& item, const gpu::RasterProgram& program) const {
@@ -210,6 +243,7 @@ void Level::record_gbuffer(gpu::Commands& commands, const gpu::Buffer& view,
   std::vector<gpu::DrawCall> draws;
   draws.reserve(items_.size());
   for (const DrawItem& item : items_) {
+    if (!item.seen) continue;
     gpu::DrawCall call = call_of(item, item.masked ? *masked_ : *opaque_);
     call.bindings.emplace_back("View", view);
     draws.push_back(std::move(call));
@@ -224,6 +258,7 @@ void Level::record_depth(gpu::Commands& commands, const gpu::Buffer& view, const
   std::vector<gpu::DrawCall> draws;
   draws.reserve(items_.size());
   for (const DrawItem& item : items_) {
+    if (!item.seen) continue;
     gpu::DrawCall call = call_of(item, item.masked ? *depth_masked_ : *depth_opaque_);
     call.bindings.emplace_back("View", view);
     draws.push_back(std::move(call));
@@ -244,7 +279,7 @@ void Level::record_forward(gpu::Commands& commands, const gpu::RasterProgram& pr
                            const gpu::Bindings& bindings, const FrameTargets& targets) const {
   std::vector<gpu::DrawCall> draws;
   for (const DrawItem& item : items_) {
-    if (!item.forward) continue;
+    if (!item.forward || !item.seen) continue;
     gpu::DrawCall call = call_of(item, program);
     call.bindings.insert(call.bindings.end(), bindings.begin(), bindings.end());
     draws.push_back(std::move(call));

@@ -9,6 +9,7 @@
 #include "harness/frame/level_textures.h"
 #include "harness/frame/targets.h"
 #include "harness/gpu/commands.h"
+#include "harness/scene/draw_motion.h"
 #include "harness/scene/scene.h"
 
 namespace ml {
@@ -29,6 +30,9 @@ class Level {
   // Draws what is lit forward into the result, over what is there; `bindings` is what the shading loop binds.
   void record_forward(gpu::Commands& commands, const gpu::RasterProgram& program,
                       const gpu::Bindings& bindings, const FrameTargets& targets) const;
+
+  // Where moving meshes are from now on; `time` as in FrameInput.
+  void move_to(double time);
 
   // Draws everything into depth, surface and (where there are any) forward and emission; `view` is the
   // frame's uniform buffer.
@@ -57,8 +61,14 @@ class Level {
     bool double_sided, masked, forward;
     const gpu::Image *base_color, *metallic_roughness, *normal_map, *emission_map;
     std::vector<std::byte> push;
+    std::optional<DrawMotion> motion = std::nullopt;
+    bool seen = true;
   };
   std::vector<DrawItem> items_;
+  std::shared_ptr<const NodeMotions> motions_;  // null where no mesh moves
+  glm::dvec3 motion_center_{0};
+
+  static void set_pose(DrawItem& item, const DrawPose& pose);
 
   // A draw of the item by the program that fits it, with what belongs to the mesh bound.
   gpu::DrawCall call_of(const DrawItem& item, const gpu::RasterProgram& program) const;

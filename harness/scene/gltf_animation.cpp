@@ -23,9 +23,12 @@ class MovementLoader {
   Movement load() {
     find_channels();
     Movement movement;
-    if (!anything_moves()) return movement;
-    auto motions = std::make_shared<NodeMotions>();
     movement.index.assign(file_.model.nodes.size(), -1);
+    if (!anything_moves()) {
+      note_what_carries_nothing(movement);
+      return movement;
+    }
+    auto motions = std::make_shared<NodeMotions>();
     for (const PlacedNode& placed : nodes_) {
       // A camera that stands still among what moves runs by the same clock.
       const bool camera = file_.model.nodes[placed.node].camera >= 0;
@@ -33,6 +36,7 @@ class MovementLoader {
         add_chain(placed.node, *motions, movement.index);
     }
     movement.motions = std::move(motions);
+    note_what_carries_nothing(movement);
     return movement;
   }
 
@@ -75,6 +79,17 @@ class MovementLoader {
          " animation channels move something else than a node's translation, rotation or scale, and are "
          "ignored");
     note(later, " animation channels move nodes that an earlier animation moves, and are not played");
+  }
+
+  // Joints, above all: skins stand at rest.
+  void note_what_carries_nothing(const Movement& movement) {
+    size_t count = 0;
+    for (size_t node = 0; node < channels_.size(); ++node)
+      if (movement.index[node] < 0) count += channels_[node].size();
+    if (count)
+      file_.notes.push_back(std::to_string(count) +
+                            " animation channels move nodes that carry no mesh, light or camera, and are not "
+                            "played: skins stand in their rest pose");
   }
 
   bool has_content(size_t node) const {
@@ -157,6 +172,20 @@ class MovementLoader {
   std::vector<char> moves_;                          // by node: it, or one above it
 };
 
+bool has_volume(const glm::dmat4& world) {
+  const double volume = glm::determinant(glm::dmat3(world));
+  return volume != 0 && std::isfinite(volume);
+}
+
+// Where the node is when the motion begins, or when it first has a volume.
+glm::dmat4 first_place(const NodeMotions& motions, size_t node) {
+  const glm::dmat4 begin = motions.world(node, motions.begin());
+  if (has_volume(begin)) return begin;
+  for (double time : sample_times(motions, node, 7))
+    if (const glm::dmat4 world = motions.world(node, time); has_volume(world)) return world;
+  return begin;
+}
+
 }  // namespace
 
 Movement load_movement(File& file, std::vector<PlacedNode>& nodes) {
@@ -165,7 +194,7 @@ Movement load_movement(File& file, std::vector<PlacedNode>& nodes) {
   for (PlacedNode& placed : nodes)
     if (const int index = movement.of(placed.node);
         index >= 0 && movement.motions->moves(static_cast<size_t>(index)))
-      placed.world = movement.motions->world(static_cast<size_t>(index), movement.motions->begin());
+      placed.world = first_place(*movement.motions, static_cast<size_t>(index));
   return movement;
 }
 

@@ -3,6 +3,7 @@
 
 #include "harness/base/error.h"
 #include "harness/base/file.h"
+#include "harness/scene/draw_motion.h"
 #include "harness/scene/gltf_parts.h"
 
 namespace ml {
@@ -57,8 +58,10 @@ Scene build(File& file, gltf::Bytes bytes, int scene_index, uint32_t seed, const
   scene.motions = movement.motions;
   scene.name = own.value("name", std::filesystem::path(file.name).stem().string());
   gltf::load_materials(file, scene);
-  glm::dvec3 center = gltf::load_meshes(file, nodes, own.contains("origin") ? &zero : nullptr, scene);
+  glm::dvec3 center =
+      gltf::load_meshes(file, nodes, movement, own.contains("origin") ? &zero : nullptr, scene);
   scene.motion_center = center;
+  finish_motion(scene);
   scene.origin = offset + center + written_origin;
   gltf::load_lights(file, nodes, movement, center, scene);
   gltf::load_cameras(file, nodes, movement, center, scene);

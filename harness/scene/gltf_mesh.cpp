@@ -32,7 +32,8 @@ std::vector<uint32_t> as_triangles(const std::vector<uint32_t>& corners, int mod
 
 class MeshLoader {
  public:
-  MeshLoader(File& file, Scene& scene) : file_(file), scene_(scene), triangles_(scene.materials.size()) {}
+  MeshLoader(File& file, const Movement& movement, Scene& scene)
+      : file_(file), movement_(movement), scene_(scene), triangles_(scene.materials.size()) {}
 
   void add_node(const PlacedNode& placed) {
     const tinygltf::Node& node = file_.model.nodes[placed.node];
@@ -63,8 +64,9 @@ class MeshLoader {
     note(without_material_, "primitives have no material, and get white, not metallic, roughness 0.8");
     size_t corners = 0;
     for (const auto& list : triangles_) corners += list.size();
+    for (const auto& [key, mover] : movers_) corners += mover.triangles.size();
     if (corners == 0) file_.fail("scene", "has no triangles");
-    if (triangles_.back().empty() && scene_.materials.size() > 1)
+    if (triangles_.back().empty() && !moves_without_material_ && scene_.materials.size() > 1)
       triangles_.pop_back(), scene_.materials.pop_back();
 
     glm::dvec3 center = given_center ? *given_center : whole_center();
@@ -78,6 +80,7 @@ class MeshLoader {
                               static_cast<uint32_t>(list.size()), static_cast<uint32_t>(material)});
       scene_.indices.insert(scene_.indices.end(), list.begin(), list.end());
     }
+    add_moving_draws(center);
     finish_details(scene_);
     mend_normals();
     scene_.bounds = {scene_.vertices[0].position, scene_.vertices[0].position};
@@ -89,6 +92,38 @@ class MeshLoader {
   }
 
  private:
+  // Triangles that a moving node carries, of one material.
+  struct Mover {
+    glm::dmat4 world{1};  // where the node is while its vertices are made
+    std::vector<uint32_t> triangles;
+  };
+
+  // A node that has no volume at any time is drawn as it stands: nothing of it is seen. Skinned meshes stand
+  // where their joints are at rest.
+  std::vector<uint32_t>& triangles_of(const PlacedNode& placed, size_t material, bool skinned) {
+    const int node = skinned ? -1 : movement_.moving(placed.node);
+    if (node < 0 || glm::determinant(glm::dmat3(placed.world)) == 0) return triangles_[material];
+    moves_without_material_ = moves_without_material_ || material + 1 == triangles_.size();
+    Mover& mover = movers_[{node, material}];
+    mover.world = placed.world;
+    return mover.triangles;
+  }
+
+  // After the draws that stand still.
+  void add_moving_draws(const glm::dvec3& center) {
+    glm::dmat4 to_world(1);
+    to_world[3] = glm::dvec4(center, 1);
+    for (const auto& [key, mover] : movers_) {
+      if (mover.triangles.empty()) continue;
+      scene_.draws.push_back(
+          {static_cast<uint32_t>(scene_.indices.size()), static_cast<uint32_t>(mover.triangles.size()),
+           static_cast<uint32_t>(key.second), static_cast<int>(scene_.draw_motions.size())});
+      scene_.draw_motions.push_back(
+          {static_cast<size_t>(key.first), glm::inverse(mover.world) * to_world, glm::vec3(0)});
+      scene_.indices.insert(scene_.indices.end(), mover.triangles.begin(), mover.triangles.end());
+    }
+  }
+
   void note(size_t count, const std::string& what) {
     if (count) file_.notes.push_back(std::to_string(count) + " " + what);
   }
@@ -125,7 +160,7 @@ class MeshLoader {
     without_coordinates_ += source.lacks_coordinates;
     size_t material =
         primitive.material < 0 ? triangles_.size() - 1 : static_cast<size_t>(primitive.material);
-    std::vector<uint32_t>& list = triangles_[material];
+    std::vector<uint32_t>& list = triangles_of(placed, material, !transforms.is_one());
     check_room(source.normals < 0 ? corners.size() : count, corners.size(), place);
 
     // Mirrored triangles are turned over, so that their fronts stay fronts.
@@ -265,7 +300,10 @@ class MeshLoader {
   }
 
   File& file_;
+  const Movement& movement_;
   Scene& scene_;
+  std::map<std::pair<int, size_t>, Mover> movers_;  // by node of the motions and material
+  bool moves_without_material_ = false;
   std::vector<glm::dvec3> positions_;               // m, in the file's world; beside scene_.vertices
   std::vector<std::vector<uint32_t>> triangles_;    // for each material
   std::map<std::vector<double>, uint32_t> shared_;  // by VertexSource::key()
@@ -277,9 +315,9 @@ class MeshLoader {
 
 }  // namespace
 
-glm::dvec3 load_meshes(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3* center,
-                       Scene& scene) {
-  MeshLoader loader(file, scene);
+glm::dvec3 load_meshes(File& file, const std::vector<PlacedNode>& nodes, const Movement& movement,
+                       const glm::dvec3* center, Scene& scene) {
+  MeshLoader loader(file, movement, scene);
   for (const PlacedNode& node : nodes) loader.add_node(node);
   return loader.finish(center);
 }

@@ -44,10 +44,10 @@ struct Movement {
 // beside them; proves that times increase. Moves `nodes` to where they are when it begins.
 Movement load_movement(File& file, std::vector<PlacedNode>& nodes);
 
-// gltf_mesh.cpp. Fills vertices, indices, draws and bounds, and subtracts the whole metres nearest to the
-// middle of the bounds (or `center`, where one is given). Returns what was subtracted.
-glm::dvec3 load_meshes(File& file, const std::vector<PlacedNode>& nodes, const glm::dvec3* center,
-                       Scene& scene);
+// gltf_mesh.cpp. Fills vertices, indices, draws, those that move apart, and bounds, and subtracts the whole
+// metres nearest to the middle of the bounds (or `center`, where one is given). Returns what was subtracted.
+glm::dvec3 load_meshes(File& file, const std::vector<PlacedNode>& nodes, const Movement& movement,
+                       const glm::dvec3* center, Scene& scene);
 
 // gltf_material.cpp. The materials in the file's order and the textures that they use; a texture that cannot
 // be read is left out, with a note. At the end comes a material for primitives without one; it is dropped by

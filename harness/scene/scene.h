@@ -92,6 +92,14 @@ struct Draw {
   uint32_t first_index = 0;
   uint32_t index_count = 0;  // a multiple of 3
   uint32_t material = 0;
+  int motion = -1;  // index into Scene::draw_motions; -1: it stands still
+};
+
+// What carries a draw (draw_motion.h).
+struct DrawMotion {
+  size_t node = 0;          // of Scene::motions
+  glm::dmat4 from_rest{1};  // from the scene's coordinates, as Scene::vertices have them, to the node's own
+  glm::vec3 pivot{0};       // m, the middle of the draw's vertices
 };
 
 struct Bounds {
@@ -118,10 +126,11 @@ struct Scene {
   // Null where nothing moves. The level as it stands here is that of motions->begin().
   std::shared_ptr<const NodeMotions> motions;
   glm::dvec3 motion_center{0};  // m, what was subtracted from the world of `motions`
-  std::vector<Bounds> rooms;    // from floor to ceiling, for the placements `stage` and `room`
-  Bounds bounds;                // of the vertices
-  float near = 0.1f;            // m
-  float far = 1000;             // m, the depth range of grids: about the longest view
+  std::vector<DrawMotion> draw_motions;
+  std::vector<Bounds> rooms;  // from floor to ceiling, for the placements `stage` and `room`
+  Bounds bounds;              // of the vertices, wherever they move
+  float near = 0.1f;          // m
+  float far = 1000;           // m, the depth range of grids: about the longest view
   std::vector<std::string>
       notes;  // one line each: what the importer could not represent, to be shown to the user
 
@@ -175,7 +184,8 @@ Scene import_gltf_memory(std::span<const std::byte> bytes, const std::string& na
 void export_glb(const Scene& scene, const std::vector<Light>& lights, const std::filesystem::path& file);
 
 // A path at eye height (1.7 m) above upward-facing floor, looking along long free views; seeded,
-// deterministic. Levels without any floor get a path around their bounds.
+// deterministic. Levels without any floor, and those that a visitor would look past, get one around their
+// bounds (orbit_path.h). Every frame sees a surface, where any can be seen from outside.
 CameraPath automatic_path(const Scene& scene, uint32_t seed);
 
 }  // namespace ml

@@ -16,6 +16,7 @@ using uint = uint32_t;
 using vec2 = glm::vec2;
 using vec3 = glm::vec3;
 using vec4 = glm::vec4;
+using mat3 = glm::mat3;
 using uvec2 = glm::uvec2;
 using uvec4 = glm::uvec4;
 ML_NAMESPACE_END

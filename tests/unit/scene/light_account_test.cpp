@@ -72,8 +72,7 @@ TEST(LightAccount, AFileWithoutUsableLightsSaysWhatItHas) {
     LightSet(spec_of(1, Placement::gltf), scene);
     FAIL() << "accepted";
   } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("1 directional (a sun), which has no radius"),
-              std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("1 directional (a sun), which has no radius"), std::string::npos)
         << error.what();
   }
 }

@@ -172,6 +172,18 @@ TEST(NodeMotions, ALightUnderScaleZeroDoesNotShineInThatFrame) {
   }
 }
 
+TEST(NodeMotions, WhatCarriesNothingIsNamed) {
+  GltfTestFile file = carried_light({{"translation", {0, 0, 0, 3, 0, 0}}}, "LINEAR");
+  file.json["nodes"].push_back({{"name", "joint"}});
+  file.json["scenes"][0]["nodes"].push_back(5);
+  file.json["animations"][0]["channels"][0]["target"]["node"] = 5;
+  const Scene scene = file.load();
+  EXPECT_FALSE(scene.motions);
+  EXPECT_TRUE(std::any_of(scene.notes.begin(), scene.notes.end(), [](const std::string& note) {
+    return note.starts_with("1 animation channels move nodes that carry no mesh, light or camera");
+  }));
+}
+
 // A camera that stands still among what moves runs by the clock of what moves.
 TEST(NodeMotions, AStillCameraHasTheClocksDuration) {
   const Scene scene = carried_light({{"translation", {0, 0, 0, 3, 0, 0, 0, 4, 0}}}, "LINEAR").load();
