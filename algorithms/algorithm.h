@@ -124,6 +124,12 @@ struct TileClasses {
   std::span<const uint8_t> of_tile;
 };
 
+// What a pixel looks at on its way through a list or a tree. light_next() takes a light or a node a call, or
+// both.
+struct LongestWalk {
+  uint64_t lights = 0, nodes = 0;
+};
+
 class Algorithm {
  public:
   virtual ~Algorithm() = default;
@@ -139,10 +145,12 @@ class Algorithm {
   // Values of the cursor's specialization constants (ids from 16), in order.
   virtual std::vector<uint32_t> shade_constants() const { return {}; }
 
-  // At most how many lights and nodes a pixel looks at in the frame that prepare() saw last; no less than any
-  // pixel does. Short walks are shaded by loops that fit them better (shaders/light_eval.glsl, LONG_LISTS).
-  virtual uint64_t longest_walk() const { return unknown_walk; }
-  static constexpr uint64_t unknown_walk = UINT64_MAX;
+  // No less than any pixel looks at in the frame that prepare() saw last. The shading loop is chosen by it
+  // (harness/frame/shading_loops.h). Default: every light of the frame.
+  virtual LongestWalk longest_walk(const FrameInput& frame) const { return {frame.lights.count(), 0}; }
+  // The cursor is brute force's: it looks at the lights [first_light, end_light) of the push constant alone,
+  // in their order, so that a frame of very many lights is shaded by several dispatches.
+  virtual bool walks_ranges() const { return false; }
 
   // The classes of the picture's tiles in the frame that prepare() saw last, where some need less of the
   // shading loop than others. Each class is shaded by a program of its own, for what a program can do costs

@@ -1,6 +1,10 @@
 // Every pixel against the lights that touch its block: counts them, or (FILL) writes them down in ascending order at the pixel's offset.
 //
 // The group's mask is narrowed to the block first, each thread taking words of its own; then all pixels walk the few lights that are left.
+//
+// Iterations for each chunk of 8192 lights, whatever the masks hold: 1 for the chunk, 4 x 33 to narrow it, 8 x 33 over the words that are left, and for
+// the lights of each of these 256 words 32, with LONG_LISTS 4. So 28,000 lights take fewer than 35,000, and the 262,144 of one dispatch fewer than
+// 46,000 with LONG_LISTS: within what any driver is known to allow (harness/frame/shading_loops.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/contributing_common.glsl"
@@ -10,10 +14,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #ifdef FILL
 layout(scalar, binding = 18) readonly buffer Offsets { uint offsets[]; };
 layout(scalar, binding = 19) writeonly buffer Indices { uint indices[]; };
-#else
-layout(r32ui, binding = BIND_CONTRIBUTING) writeonly uniform uimage2D Contributing;
-layout(r32ui, binding = BIND_HASH) writeonly uniform uimage2D Hash;
 #endif
+// Of the words so far.
+layout(r32ui, binding = BIND_CONTRIBUTING) uniform uimage2D Contributing;
+layout(r32ui, binding = BIND_HASH) uniform uimage2D Hash;
 
 // Words of the mask that are narrowed at a time, and which of them have a light left (one bit a word).
 const uint chunk_words = 256u;
@@ -47,15 +51,19 @@ void main() {
   bool inside = all(lessThan(pixel, view.resolution));
   bool lit = inside && surface_load(pixel, point);
   uint count = 0u, hash = 0u;
+  if (push.first_word != 0u && inside) {
+    count = imageLoad(Contributing, ivec2(pixel)).x;
+    hash = imageLoad(Hash, ivec2(pixel)).x;
+  }
 #ifdef FILL
   uint next = lit ? offsets[pixel.y * view.resolution.x + pixel.x] : 0u;
 #else
   uint next = 0u;
 #endif
-  for (uint chunk = 0u; chunk < push.mask_words; chunk += chunk_words) {
+  for (uint chunk = push.first_word; chunk < push.end_word; chunk += chunk_words) {
     if (thread < chunk_words / 32u) occupied[thread] = 0u;
     barrier();
-    for (uint word = thread; word < min(chunk_words, push.mask_words - chunk); word += 64u) {
+    for (uint word = thread; word < min(chunk_words, push.end_word - chunk); word += 64u) {
       uint kept = 0u;
       for (uint mask = masks[first_word + chunk + word]; mask != 0u; mask &= mask - 1u) {
         uint bit = uint(findLSB(mask));
@@ -84,10 +92,8 @@ void main() {
       }
     barrier();
   }
-#ifndef FILL
   if (inside) {
     imageStore(Contributing, ivec2(pixel), uvec4(count));
     imageStore(Hash, ivec2(pixel), uvec4(hash));
   }
-#endif
 }

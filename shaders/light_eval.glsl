@@ -12,8 +12,8 @@
 
 layout(constant_id = 0) const bool EFFECT_SPOTS = true;
 layout(constant_id = 1) const bool EFFECT_SPECULAR = true;
-// Loops over lights take several of them a turn: Mesa's software driver ends a shader's loops, without a word, after 65,535 turns in
-// all. Off where there are fewer lights, because it multiplies the time that programs take to compile.
+// Loops over lights take several of them an iteration, for drivers that end a shader's loops after so many iterations:
+// harness/frame/shading_loops.h has the driver, the bounds, and when it is on.
 layout(constant_id = 3) const bool LONG_LISTS = false;
 // A shape whose effect is off shines like an omni light of the same radius.
 layout(constant_id = 4) const bool EFFECT_CAPSULES = true;

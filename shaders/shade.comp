@@ -11,6 +11,7 @@
 //                        uint light_next_runs(inout LightCursor, bool here)  those that follow,
 //                        bool light_run(LightCursor, uint bit, bool here, out uint first, out uint count)  a run, and whether the pixel wants it,
 //                        uint run_light(uint place)  a light of a run;
+//   CURSOR_SHARED        with poison_shared(), which writes poison_word all over the memory that the cursor shares;
 //   CURSOR_CASES         with cursor_case(), light_next_in_list() and light_next_shared(): subgroups whose pixels have something in common
 //                        are walked in a loop of their own.
 // With FORWARD it is the fragment shader of the forward pass (shade_forward.glsl): the same loop, a pixel at a time.
@@ -35,11 +36,14 @@ layout(local_size_x = 8, local_size_y = 8) in;
 // The pixels of a subgroup walk lights together: needs votes, shuffles and arithmetic across the subgroup, and a cursor that can.
 layout(constant_id = 7) const bool WALK_TOGETHER = false;
 layout(scalar, binding = BIND_BLOCKS) readonly buffer Blocks { uint blocks[]; };  // column | row << 16
-layout(push_constant, scalar) uniform BlockRange { uint first_block; };  // where the dispatch begins in the list
+// Where the dispatch begins in the list, and the lights [first_light, end_light) that the cursor looks at where it takes the frame's lights in
+// ranges: then the sums and counts of the ranges before are in the pictures.
+layout(push_constant, scalar) uniform BlockRange { uint first_block, first_light, end_light; };
+layout(constant_id = 2) const bool WALK_RANGES = false;
 // Pixels that are lit forward are left out, and black until the forward pass has lit them.
 layout(constant_id = 8) const bool EFFECT_FORWARD = false;
-layout(rgba32f, binding = BIND_RESULT) writeonly uniform image2D Result;
-layout(rgba32f, binding = BIND_SPECULAR) writeonly uniform image2D Specular;
+layout(rgba32f, binding = BIND_RESULT) uniform image2D Result;
+layout(rgba32f, binding = BIND_SPECULAR) uniform image2D Specular;
 #endif
 // The pass needs no albedo: Result gets the light that the albedo multiplies, Specular the rest, and composite.comp puts them together.
 layout(constant_id = 9) const bool SPLIT_TARGETS = false;
@@ -118,6 +122,10 @@ void add_light(SurfacePoint point, LightCore data, LightSample from, float weigh
       SHADE_NEXT(next_light)                                      \
       SHADE_NEXT(next_light)                                      \
       SHADE_NEXT(next_light)                                      \
+      SHADE_NEXT(next_light)                                      \
+      SHADE_NEXT(next_light)                                      \
+      SHADE_NEXT(next_light)                                      \
+      SHADE_NEXT(next_light)                                      \
     }                                                             \
   } else {                                                        \
     while (true) {                                                \
@@ -168,11 +176,30 @@ uvec2 place_in_block(uint thread) {
   return uvec2((thread & 3u) | (thread >> 2 & 4u), (thread >> 2 & 3u) | (thread >> 3 & 4u));
 }
 
+// What the ranges before left.
+void load_sums(uvec2 pixel, out VEC3 sum) {
+  sum = VEC3(imageLoad(Result, ivec2(pixel)).rgb);
+  if (SPLIT_TARGETS) sum_specular = VEC3(imageLoad(Specular, ivec2(pixel)).rgb);
+#ifdef COUNTING
+  count_listed = imageLoad(Listed, ivec2(pixel)).x;
+  count_tested = imageLoad(Tested, ivec2(pixel)).x;
+  count_contributing = imageLoad(Contributing, ivec2(pixel)).x;
+  count_hash = imageLoad(Hash, ivec2(pixel)).x;
+#endif
+}
+
 void main() {
+#ifdef CURSOR_SHARED
+  if (POISON_SHARED) {
+    poison_shared();
+    barrier();
+  }
+#endif
   const uint block = blocks[first_block + gl_WorkGroupID.x];
   const uvec2 pixel = uvec2(block & 0xffffu, block >> 16) * 8u + place_in_block(gl_LocalInvocationIndex);
   const bool inside = all(lessThan(pixel, view.resolution));
   VEC3 sum = VEC3(0);
+  if (WALK_RANGES && first_light != 0u && inside) load_sums(pixel, sum);
   SurfacePoint point;
 #ifdef CURSOR_RUNS
   if (WALK_TOGETHER) {
@@ -186,7 +213,7 @@ void main() {
       if (inside && surface_to_light(pixel, point))
     shade_alone(point, sum);
   if (!inside) return;
-  if (EFFECT_EMISSION && !SPLIT_TARGETS) sum += VEC3(texelFetch(Emission, ivec2(pixel), 0).rgb);
+  if (EFFECT_EMISSION && !SPLIT_TARGETS && !(WALK_RANGES && first_light != 0u)) sum += VEC3(texelFetch(Emission, ivec2(pixel), 0).rgb);
   imageStore(Result, ivec2(pixel), vec4(sum, 1.0));
   if (SPLIT_TARGETS) imageStore(Specular, ivec2(pixel), vec4(sum_specular, 1.0));
 #ifdef COUNTING

@@ -13,6 +13,10 @@ const bool small_subgroup = SUBGROUP_LANES != 0u && SUBGROUP_LANES <= 8u;
 
 uint subgroup_lanes() { return SUBGROUP_LANES != 0u ? SUBGROUP_LANES : gl_SubgroupSize; }
 
+// For tests: what a workgroup shares begins as garbage, so that nothing is read before it is written.
+layout(constant_id = 15) const bool POISON_SHARED = false;
+const uint poison_word = 0xdeadbeefu;
+
 // The value of the lane whose number differs in one bit.
 uint across(uint value, uint bit) { return subgroupShuffle(value, gl_SubgroupInvocationID ^ bit); }
 

@@ -21,6 +21,7 @@ class BruteForce final : public Algorithm {
   }
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {}; }
+  bool walks_ranges() const override { return true; }
   ShadeShaders shade_shaders() const override {
     if (fp64_)
       return {brute_force_shade_fp64, brute_force_shade_fp64_counting, brute_force_forward_fp64,
@@ -45,8 +46,6 @@ AlgorithmEntry brute_force_entry() {
   entry.info.name = "brute_force";
   entry.info.summary = "every light for every pixel: the reference";
   entry.info.reference_only = true;
-  // The software driver ends a shader's loops after 65,535 turns; the shading loop takes four lights a turn.
-  entry.info.max_lights = 262140;
   entry.parameters = {
       ParameterInfo::choice("precision", "fp32", {"fp32", "fp64"},
                             "number type of the shading sums; fp64 needs a device with 64-bit floats")};

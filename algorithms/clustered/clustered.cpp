@@ -53,7 +53,7 @@ class Clustered final : public Algorithm {
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {"Grid", "Offsets", "Indices", "Duplicates"}; }
   bool walks_together() const override { return together_; }
-  uint64_t longest_walk() const override { return lists_.longest(); }
+  LongestWalk longest_walk(const FrameInput&) const override { return {lists_.longest(), 0}; }
   ShadeShaders shade_shaders() const override {
     return {clustered_shade, clustered_shade_counting, clustered_forward, clustered_forward_counting};
   }

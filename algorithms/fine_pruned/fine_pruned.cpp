@@ -59,7 +59,7 @@ class FinePruned final : public Algorithm {
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {"Visible"}; }
   bool walks_together() const override { return together_; }
-  uint64_t longest_walk() const override { return longest_walk_; }
+  LongestWalk longest_walk(const FrameInput&) const override { return {longest_walk_, 0}; }
   ShadeShaders shade_shaders() const override {
     return {fine_pruned_shade, fine_pruned_shade_counting, fine_pruned_forward, fine_pruned_forward_counting};
   }

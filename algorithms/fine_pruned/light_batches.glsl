@@ -27,6 +27,12 @@ const uint batch = most_rounds * ML_PRUNED_GROUP, batch_words = batch / 32u;
 
 shared uint passed[3u * batch_words];  // which lights of a batch passed; three take turns, so that a barrier a batch is enough
 
+// Before anything that is shared is written; the pass then does the same with what it shares itself, and a barrier follows.
+void poison_batches() {
+  if (gl_LocalInvocationIndex == 0u) depth_low = depth_high = poison_word;
+  for (uint i = gl_LocalInvocationIndex; i < 3u * batch_words; i += ML_PRUNED_GROUP) passed[i] = poison_word;
+}
+
 // Before the first batch, and a barrier before it.
 void clear_batches() {
   const uint thread = gl_LocalInvocationIndex;

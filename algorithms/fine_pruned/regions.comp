@@ -39,6 +39,10 @@ ScreenBounds region_bounds() {
 void main() {
   const uint thread = gl_LocalInvocationIndex;
   const uint list = push.region_words * (gl_WorkGroupID.y * push.region_columns + gl_WorkGroupID.x);
+  if (POISON_SHARED) {
+    poison_batches();
+    barrier();
+  }
   clear_batches();
   const ScreenBounds region = region_bounds();
   const uint count = region.near <= region.far ? visible.count : 0u;  // else all is sky

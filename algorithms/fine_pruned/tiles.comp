@@ -38,6 +38,14 @@ shared uint survivors[2];                     // which of a chunk's lights hold 
 const uint lists = EFFECT_PROBES ? 2u : 1u;   // of a tile: direct lights, and probe lights
 shared uint kept[2u * ML_PACKED_LIGHTS];
 
+void poison_shared() {
+  const uint thread = gl_LocalInvocationIndex;
+  poison_batches();
+  for (uint i = thread; i < ML_PRUNED_CHUNK + batch; i += ML_PRUNED_GROUP) coarse[i] = poison_word;
+  if (thread < 2u * ML_PACKED_LIGHTS) kept[thread] = poison_word;
+  if (thread < 2u) survivors[thread] = poison_word;
+}
+
 uint candidate(uint place) { return REGIONS ? region_lists[region_list + 1u + place] : place; }
 
 // How many of the chunk's lights, of which there are at most 64, come before a visible index.
@@ -66,7 +74,7 @@ void set_bit(uint at, inout uvec2 mask) {
     mask.y |= 1u << (at - 32u);
 }
 
-// One loop for each type of volume. Several lights a turn where there are many: some drivers are short of turns (shaders/light_eval.glsl).
+// One loop for each type of volume. Several lights an iteration where there are many (harness/frame/shading_loops.h).
 #define PRUNE(volume, end, at) \
   if (at < end && volume(points, light_at(visible_lights[coarse[begin + at]]))) set_bit(at, mask);
 #define PRUNE_LOOP(volume, from, end)                                                        \
@@ -189,6 +197,10 @@ uint keep_batch(uint first_light, uint count, uint field, uint held) {
 void main() {
   const uint thread = gl_LocalInvocationIndex;
   const uint tile = gl_WorkGroupID.y * push.columns + gl_WorkGroupID.x;
+  if (POISON_SHARED) {
+    poison_shared();
+    barrier();
+  }
   clear_batches();
   load_points();
 

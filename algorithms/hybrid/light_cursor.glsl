@@ -12,6 +12,14 @@ layout(constant_id = 18) const bool HAS_TREES = true;
 // Nodes of all subgroups of the workgroup together: 8 KiB, the share of one is what it can copy.
 const uint shared_capacity = 512u;
 shared TreeNode shared_nodes[SHARED_TREE ? shared_capacity : 1u];
+
+void poison_shared() {
+  const float garbage = uintBitsToFloat(poison_word);
+  if (!SHARED_TREE) return;
+  for (uint i = gl_LocalInvocationIndex; i < shared_capacity; i += gl_WorkGroupSize.x * gl_WorkGroupSize.y)
+    shared_nodes[i] = TreeNode(garbage, garbage, poison_word, poison_word);
+}
+#define CURSOR_SHARED
 #endif
 
 uint light_cell(SurfacePoint point) { return froxel_of_point(point); }
@@ -52,7 +60,10 @@ uint cursor_case(inout LightCursor cursor) {
   }
   if (SHARED_TREE) {
     const uint share = shared_capacity / gl_NumSubgroups;
-    if (subgroupAllEqual(cursor.node) && nodes <= share) {
+    // A pixel with a list has node 0 and end 0: a tree that begins at node 0 is told from it by its end. Asked of all lanes, one question
+    // after the other.
+    const bool same_node = subgroupAllEqual(cursor.node), same_end = subgroupAllEqual(cursor.end);
+    if (same_node && same_end && nodes != 0u && nodes <= share) {
       // Pixels of the sky have no cursor: the lanes that are left share the copying.
       const uvec4 lanes = subgroupBallot(true);
       const uint base = gl_SubgroupID * share, step = subgroupBallotBitCount(lanes);

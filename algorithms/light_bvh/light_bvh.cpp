@@ -58,6 +58,8 @@ class LightBvh final : public Algorithm {
     return {light_bvh_shade, light_bvh_shade_counting, light_bvh_forward, light_bvh_forward_counting};
   }
   std::vector<uint32_t> shade_constants() const override { return {node_words_}; }
+  // A leaf is a light.
+  LongestWalk longest_walk(const FrameInput&) const override { return {0, packing_.nodes().size()}; }
 
  private:
   void find_visible(const FrameInput& frame) {

@@ -52,7 +52,7 @@ void sphere_step(inout LightCursor cursor, inout uint light) {
   cursor.node = hit ? cursor.node + 1u : node.behind;
 }
 
-// Two nodes at most, no loop: its turns would add to those of the caller's (shaders/light_eval.glsl, LONG_LISTS).
+// Two nodes at most, no loop: its iterations would add to those of the caller's (harness/frame/shading_loops.h).
 bool light_next(inout LightCursor cursor, out uint light, out float weight) {
   weight = 1.0;
   light = no_light;

@@ -18,7 +18,7 @@ class TreeAlgorithm : public Algorithm {
   PrepareCounters counters() const final { return trees_.counters(); }
   std::vector<std::string> buffers() const final { return TreePrepare::buffers(); }
   bool walks_together() const final { return together_; }
-  uint64_t longest_walk() const final { return trees_.longest_walk(); }
+  LongestWalk longest_walk(const FrameInput&) const final { return trees_.longest_walk(); }
   // Class 1 has trees, class 0 nothing but lists.
   TileClasses tile_classes() const final { return trees_.tile_classes(); }
   std::vector<uint32_t> class_constants(uint32_t tile_class) const final { return {tile_class}; }

@@ -29,8 +29,8 @@ ML_SIZE(TreeCell, 8);
 #define ML_TREE_COUNT_MASK 0xffffu
 #define ML_TREE_SKIP_SHIFT 17
 // What the fields can hold: lights of one leaf, and nodes to skip. 15 bits of skip would be enough for 16384
-// leaves; a walk of so many nodes takes longer than some drivers let a shader loop (shaders/light_eval.glsl),
-// so trees that large get larger leaves instead.
+// leaves; a walk of so many nodes takes longer than some drivers let a shader loop
+// (harness/frame/shading_loops.h), so trees that large get larger leaves instead.
 #define ML_TREE_MAX_LEAF_LIGHTS 65535u
 #define ML_TREE_MAX_LEAVES 2048u
 

@@ -75,10 +75,10 @@ TileClasses TreePrepare::tile_classes() const {
   return {1, lists_.grid().tile, lists_.grid().columns, class_of_tile_};
 }
 
-uint64_t TreePrepare::longest_walk() const {
+LongestWalk TreePrepare::longest_walk() const {
   // A tree's nodes are fewer than twice its leaves, and padding may double those.
   const uint64_t lights = lists_.longest(), leaves = lights / trees_.lights_per_leaf + 1;
-  return lights + std::min<uint64_t>(4 * leaves, 2 * ML_TREE_MAX_LEAVES);
+  return {lights, std::min<uint64_t>(4 * leaves, 2 * ML_TREE_MAX_LEAVES)};
 }
 
 std::vector<ParameterInfo> tree_parameters() {

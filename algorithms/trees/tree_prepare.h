@@ -18,7 +18,7 @@ class TreePrepare {
   static std::vector<std::string> buffers() { return {"Grid", "TreeCells", "TreeNodes", "Indices"}; }
 
   // Of the frame that was prepared last (Algorithm).
-  uint64_t longest_walk() const;
+  LongestWalk longest_walk() const;
   TileClasses tile_classes() const;
 
   const FroxelLists& lists() const { return lists_; }

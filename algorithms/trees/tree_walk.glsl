@@ -73,8 +73,8 @@ void tree_step(inout LightCursor cursor, TreeNode node) {
   }
 }
 
-// A light of the leaf that is walked; at a leaf's end takes one node, which may lead to no light. No loop: a loop's turns would add to those of
-// the caller's (shaders/light_eval.glsl, LONG_LISTS).
+// A light of the leaf that is walked; at a leaf's end takes one node, which may lead to no light. No loop: its iterations would add to those of
+// the caller's (harness/frame/shading_loops.h).
 bool tree_next(inout LightCursor cursor, out uint light, out float weight) {
   weight = 1.0;
   light = no_light;
@@ -93,10 +93,20 @@ bool some_depth_in(float low, float high, float depth, bool here) {
   // A few exchanges are cheaper than what small subgroups pay for a sum over all lanes.
   if (small_subgroup) {
     const float asked = here ? depth : -any_depth;
-    for (uint lane = 0u; lane < SUBGROUP_LANES; ++lane) {
-      const float other = subgroupShuffle(asked, lane);
-      some = some || (low <= other && other <= high);
-    }
+#define DEPTH_OF_LANE(lane) \
+  if (SUBGROUP_LANES > lane) { \
+    const float other = subgroupShuffle(asked, lane); \
+    some = some || (low <= other && other <= high); \
+  }
+    DEPTH_OF_LANE(0u)
+    DEPTH_OF_LANE(1u)
+    DEPTH_OF_LANE(2u)
+    DEPTH_OF_LANE(3u)
+    DEPTH_OF_LANE(4u)
+    DEPTH_OF_LANE(5u)
+    DEPTH_OF_LANE(6u)
+    DEPTH_OF_LANE(7u)
+#undef DEPTH_OF_LANE
   } else {
     // Between the nearest and the farthest: no leaf is missed, some are taken in vain. As bits, which are in order for depths (> 0).
     const uint bits = floatBitsToUint(max(depth, 0.0));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "harness/frame/shading_loops.h"
+
 namespace ml {
 namespace {
 
@@ -53,7 +55,7 @@ Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const S
   effects_.probes = setup.effects.probes && std::any_of(lights_->base().begin(), lights_->base().end(),
                                                         [](const Light& light) { return light.probe; });
   effects_.specular = setup.effects.specular;
-  effects_.long_lists = lights_->base().size() > Effects::most_turns;
+  effects_.long_lists = lights_->base().size() > max_lights_of_short_passes;
   effects_.alpha_mask = setup.effects.alpha_mask && Level::has_masked_material(*scene_);
   effects_.forward = setup.effects.forward && Level::has_forward_material(*scene_);
   effects_.clip_far = path_.clips_far;

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "harness/base/error.h"
+#include "harness/frame/shading_loops.h"
 #include "shaders/shared/contributing.h"
 #include "spirv/aov_comp.h"
 #include "spirv/contributing_bounds.h"
@@ -146,7 +147,9 @@ const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input
   ContributingPasses& p = *passes_;
   uint32_t width = targets_.width(), height = targets_.height();
   gpu_data::ContributingPush push{{groups(width, ML_BLOCK), groups(height, ML_BLOCK)},
-                                  groups(static_cast<uint32_t>(input.lights.count()), 32)};
+                                  groups(static_cast<uint32_t>(input.lights.count()), 32),
+                                  0,
+                                  0};
   uint32_t groups_across = groups(push.blocks.x, ML_GROUP), groups_down = groups(push.blocks.y, ML_GROUP);
   p.reserve(device_, p.block_bounds, size_t{push.blocks.x} * push.blocks.y * sizeof(gpu_data::BlockBounds),
             "block bounds");
@@ -164,11 +167,20 @@ const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input
     list.emplace_back("Hash", p.hash_image);
     return list;
   };
+  // A range of lights after the other; at least one, which writes zeros where there are no lights.
+  auto every_range = [&](const gpu::ComputeProgram& program, const gpu::Bindings& bindings) {
+    do {
+      push.end_word = std::min(push.mask_words, push.first_word + max_lights_of_dispatch / 32);
+      commands_.dispatch(program, bindings, push, push.blocks.x, push.blocks.y);
+      push.first_word = push.end_word;
+    } while (push.first_word < push.mask_words);
+    push.first_word = 0;
+  };
   gpu::Bindings list = with_lists();
   commands_.begin(gpu::Timing::none);
   commands_.dispatch(p.bounds, list, push, push.blocks.x, push.blocks.y);
   commands_.dispatch(p.masks, list, push, groups_across, groups_down);
-  commands_.dispatch(p.count, list, push, push.blocks.x, push.blocks.y);
+  every_range(p.count, list);
   commands_.submit();
   contributing_.count = read_words(p.count_image);
   contributing_.hash = read_words(p.hash_image);
@@ -190,7 +202,7 @@ const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input
   list = with_lists();
   commands_.begin(gpu::Timing::none);
   commands_.transfer(p.offsets);
-  commands_.dispatch(p.fill, list, push, push.blocks.x, push.blocks.y);
+  every_range(p.fill, list);
   commands_.submit();
   return contributing_;
 }

@@ -29,7 +29,7 @@ std::vector<std::string> Effects::names(const gpu::Device& device) const {
   if (compute_lists) list.emplace_back("compute_lists");
   if (fetches_texels(device)) list.emplace_back("texel_fetch");
   if (test_ahead) list.emplace_back("test_ahead");
-  if (long_lists) list.emplace_back("long_lists");
+  if (takes_long_lists(device)) list.emplace_back("long_lists");
   return list;
 }
 
@@ -37,7 +37,7 @@ std::vector<gpu::Constant> Effects::constants(const gpu::Device& device) const {
   const gpu::DeviceLimits& limits = device.limits();
   return {{0, spots},
           {1, specular},
-          {3, long_lists},
+          {3, takes_long_lists(device)},
           {4, capsules},
           {5, wedges},
           {6, boxes},
@@ -45,7 +45,8 @@ std::vector<gpu::Constant> Effects::constants(const gpu::Device& device) const {
           {11, limits.one_subgroup_size && !any_subgroup_size ? limits.subgroup_size : 0},
           {12, fetches_texels(device)},
           {13, test_ahead},
-          {14, emission}};
+          {14, emission},
+          {15, poison_shared}};
 }
 
 void require_texels(const gpu::DeviceLimits& limits, const std::string& what, uint64_t bytes) {

@@ -44,12 +44,16 @@ struct Effects {
   // Subgroups that walk together test batches of lights until one contributes, and shade then
   // (shading.test_ahead).
   bool test_ahead = false;
-  // Passes over all lights that are fit for more than `most_turns` of them (shaders/light_eval.glsl says
-  // why); costs compile time. Shading loops go by what a frame's pixels walk (ShadedAlgorithm).
+  // There are more than max_lights_of_short_passes lights (harness/frame/shading_loops.h): on drivers that
+  // end loops passes over all lights take several of them an iteration. Shading loops go by what a frame's
+  // pixels walk (ShadedAlgorithm).
   bool long_lists = true;
-  static constexpr uint32_t most_turns = 28000;
+  bool takes_long_lists(const gpu::Device& device) const {
+    return long_lists && device.limits().loop_iterations != 0;
+  }
   // Programs are made as for devices whose subgroups are large, or not all of one size: tests ask for it.
   bool any_subgroup_size = false;
+  bool poison_shared = false;  // shared memory begins as garbage: tests ask for it
   bool long_walks = false;  // shading loops for long walks in every frame: tests ask for them
   // Those that are on, "omni" first.
   std::vector<std::string> names(const gpu::Device& device) const;

@@ -11,14 +11,6 @@
 namespace ml {
 namespace {
 
-// Lights and nodes up to which the shading loop for short walks, the faster one, stays below the turns that
-// some drivers allow (shaders/light_eval.glsl). A pixel that walks alone takes up to two turns for each. A
-// subgroup walks the cells of all its pixels: its limit is for all together. It takes a turn for each light
-// that contributes, and for a batch of as many lights as it has lanes one more and one for every four tests;
-// testing ahead another. That is 1.5 turns a light, ahead 1.75, with the smallest subgroups of such a driver,
-// of 4 lanes.
-constexpr uint64_t longest_short_walk = 28000, longest_short_walk_together = 40000,
-                   longest_short_walk_ahead = 36000;
 // Workgroups along one axis on the smallest devices.
 constexpr uint32_t most_groups = 65535;
 
@@ -31,6 +23,17 @@ uint32_t append_numbered(std::vector<gpu::Constant>& constants, uint32_t id,
   for (uint32_t value : values) constants.push_back({id++, value});
   return id;
 }
+
+// LONG_LISTS of a shading program goes by what its pixels walk, not by the lights of the frame.
+void set_long_walks(std::vector<gpu::Constant>& constants, bool long_walks) {
+  for (gpu::Constant& constant : constants)
+    if (constant.id == 3) constant.value = long_walks;
+}
+
+// shaders/shade.comp: BlockRange.
+struct BlockRange {
+  uint32_t first_block, first_light, end_light;
+};
 
 std::unique_ptr<Algorithm> created(gpu::Device& device, const AlgorithmEntry& entry,
                                    const Parameters& parameters, const Effects& effects) {
@@ -69,25 +72,32 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
     throw SystemError("forward materials: '" + device.info().name +
                       "' does not count in fragment shaders (fragmentStoresAndAtomics); "
                       "effects.forward=off lights them deferred");
+}
+
+const gpu::RasterProgram& ShadedAlgorithm::forward_program(bool counting, bool long_walks) {
+  const std::pair key(counting, long_walks);
+  if (auto found = forward_programs_.find(key); found != forward_programs_.end()) return found->second;
   const ShadeShaders shaders = algorithm_->shade_shaders();
   // Forward materials have their albedo at hand: their light goes to the result at once. Pixels walk alone.
-  std::vector<gpu::Constant> constants = effects.constants(device);
+  std::vector<gpu::Constant> constants = effects_.constants(device_);
+  set_long_walks(constants, long_walks);
   append_numbered(constants, first_own_id, algorithm_->shade_constants());
-  forward_timed_ =
-      Level::forward_program(device, shaders.forward, entry.info.name + ": forward", effects, constants);
-  forward_counting_ = Level::forward_program(device, shaders.forward_counting,
-                                             entry.info.name + ": forward, counting", effects, constants);
+  return forward_programs_
+      .emplace(key, Level::forward_program(
+                        device_, counting ? shaders.forward_counting : shaders.forward,
+                        entry_.info.name + (counting ? ": forward, counting" : ": forward"), effects_, constants))
+      .first->second;
 }
 
 // Ids shared by every shading program: shaders/light_eval.glsl, shaders/shade.comp.
 const gpu::ComputeProgram& ShadedAlgorithm::program(const Variant& variant) {
   if (auto found = programs_.find(variant); found != programs_.end()) return found->second;
   std::vector<gpu::Constant> constants = effects_.constants(device_);
-  for (gpu::Constant& constant : constants)
-    if (constant.id == 3) constant.value = variant.long_walks;
-  constants.push_back({7, together_});
+  set_long_walks(constants, variant.loop.long_walks);
+  constants.push_back({7, variant.loop.together});
   constants.push_back({8, effects_.forward && !variant.sampled});
   constants.push_back({9, effects_.split_targets && !variant.sampled});
+  constants.push_back({2, algorithm_->walks_ranges()});
   const uint32_t behind = append_numbered(constants, first_own_id, algorithm_->shade_constants());
   append_numbered(constants, behind, algorithm_->class_constants(variant.tile_class));
   const ShadeShaders shaders = algorithm_->shade_shaders();
@@ -99,18 +109,17 @@ const gpu::ComputeProgram& ShadedAlgorithm::program(const Variant& variant) {
       .first->second;
 }
 
-bool ShadedAlgorithm::walks_far(const DeviceFrame& frame, const FrameInput& input) const {
-  if (effects_.long_walks) return true;
-  uint64_t longest = algorithm_->longest_walk();
+ShadingLoop ShadedAlgorithm::loop_of(const DeviceFrame& frame, const FrameInput& input, bool together) const {
+  if (effects_.long_walks) return {together, true};
+  LongestWalk walk = algorithm_->longest_walk(input);
   if (entry_.info.needs_contributing_lists) {
     const std::vector<uint32_t>& counts = frame.contributing().count;
-    longest = counts.empty() ? 0 : std::ranges::max(counts);
-  } else if (longest == Algorithm::unknown_walk) {
-    longest = input.lights.count();
+    walk = {counts.empty() ? 0 : std::ranges::max(counts), 0};
   }
-  if (!together_) return longest > longest_short_walk;
-  const uint64_t most = effects_.test_ahead ? longest_short_walk_ahead : longest_short_walk_together;
-  return longest > most / std::clamp(device_.limits().subgroup_size, 1u, 16u);
+  if (algorithm_->walks_ranges()) walk.lights = std::min<uint64_t>(walk.lights, max_lights_of_dispatch);
+  const gpu::DeviceLimits& limits = device_.limits();
+  return choose_shading_loop(walk, limits.subgroup_size, together, effects_.test_ahead,
+                             limits.loop_iterations);
 }
 
 std::span<std::byte> ShadedAlgorithm::map(uint32_t slot, size_t bytes) {
@@ -200,8 +209,25 @@ gpu::Bindings ShadedAlgorithm::cull(gpu::Commands& commands, const DeviceFrame& 
   return list;
 }
 
+void ShadedAlgorithm::shade_blocks(gpu::Commands& commands, const Variant& variant,
+                                   const gpu::Bindings& bindings, const FrameInput& input, uint32_t begin,
+                                   uint32_t end) {
+  const auto lights = static_cast<uint32_t>(input.lights.count());
+  const uint32_t range = algorithm_->walks_ranges() ? max_lights_of_dispatch : std::max(lights, 1u);
+  uint32_t first_light = 0;
+  do {
+    const uint32_t end_light = first_light + std::min(range, lights - first_light);
+    // Every pixel is in one block, and every block in one dispatch.
+    auto apart = commands.unordered();
+    for (uint32_t first = begin; first < end; first += std::min(most_groups, end - first))
+      commands.dispatch(program(variant), bindings, BlockRange{first, first_light, end_light},
+                        std::min(most_groups, end - first));
+    first_light = end_light;
+  } while (first_light < lights);
+}
+
 void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input,
-                             bool counting, const gpu::RasterProgram* forward) {
+                             bool counting) {
   bool twins = false;
   for (const gpu::UploadBuffer& buffer : buffers_) twins |= buffer.has_twin();
   if (twins) {
@@ -226,20 +252,17 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
       std::erase_if(into, [](const gpu::Binding& b) { return b.name == "Result"; });
       into.emplace_back("Result", *targets.diffuse);
     }
-    Variant variant{.counting = counting, .long_walks = walks_far(frame, input), .tile_class = only_class_};
+    Variant variant{
+        .counting = counting, .loop = loop_of(frame, input, together_), .tile_class = only_class_};
     into.emplace_back("Blocks", one_class_ ? frame.seen_blocks().list() : class_blocks_);
     if (counting) frame.clear_counters();
     auto span = commands.span("shade");
-    // Every pixel is in one block, and every block in one dispatch.
-    auto apart = commands.unordered();
-    const auto shade_blocks = [&](uint32_t first, uint32_t end) {
-      for (; first < end; first += std::min(most_groups, end - first))
-        commands.dispatch(program(variant), into, first, std::min(most_groups, end - first));
-    };
-    if (one_class_) shade_blocks(0, static_cast<uint32_t>(frame.seen_blocks().places().size()));
+    if (one_class_)
+      shade_blocks(commands, variant, into, input, 0,
+                   static_cast<uint32_t>(frame.seen_blocks().places().size()));
     for (uint32_t c = 0; !one_class_ && c < block_ends_.size(); ++c) {
       variant.tile_class = c;
-      shade_blocks(c == 0 ? 0 : block_ends_[c - 1], block_ends_[c]);
+      shade_blocks(commands, variant, into, input, c == 0 ? 0 : block_ends_[c - 1], block_ends_[c]);
     }
   }
   if (composite_) {
@@ -248,15 +271,15 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
     both.emplace_back("Diffuse", *targets.diffuse);
     commands.dispatch(*composite_, both, std::span<const std::byte>{}, across, down);
   }
-  if (!forward) return;
+  if (!effects_.forward) return;
   auto span = commands.span("forward");
-  frame.record_forward(*forward, list);
+  frame.record_forward(forward_program(counting, loop_of(frame, input, false).long_walks), list);
 }
 
 gpu::SubmissionTimes ShadedAlgorithm::shade(DeviceFrame& frame, const FrameInput& input, gpu::Timing timing) {
   gpu::Commands& commands = frame.commands();
   commands.begin(timing);
-  record(commands, frame, input, false, forward_timed_ ? &*forward_timed_ : nullptr);
+  record(commands, frame, input, false);
   return commands.submit();
 }
 
@@ -264,7 +287,7 @@ void ShadedAlgorithm::count(DeviceFrame& frame, const FrameInput& input) {
   frame.counters();  // makes them part of the frame's bindings
   gpu::Commands& commands = frame.commands();
   commands.begin(gpu::Timing::none);
-  record(commands, frame, input, true, forward_counting_ ? &*forward_counting_ : nullptr);
+  record(commands, frame, input, true);
   commands.submit();
   algorithm_->read_counters(commands);
 }
@@ -282,9 +305,9 @@ void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input,
   list.emplace_back("Blocks", sampled_blocks_);
   const Variant variant{.counting = true,
                         .sampled = true,
-                        .long_walks = walks_far(frame, input),
+                        .loop = loop_of(frame, input, together_),
                         .tile_class = algorithm_->tile_classes().most};
-  commands.dispatch(program(variant), list, uint32_t{0}, static_cast<uint32_t>(blocks.size()));
+  shade_blocks(commands, variant, list, input, 0, static_cast<uint32_t>(blocks.size()));
   commands.submit();
 }
 

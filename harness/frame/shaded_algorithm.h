@@ -9,6 +9,7 @@
 
 #include "algorithms/algorithm.h"
 #include "harness/frame/device_frame.h"
+#include "harness/frame/shading_loops.h"
 
 namespace ml {
 
@@ -46,20 +47,23 @@ class ShadedAlgorithm final : private UploadMemory {
   gpu::Bindings bindings(const DeviceFrame& frame) const;
   // Records list building; what the shading pass binds.
   gpu::Bindings cull(gpu::Commands& commands, const DeviceFrame& frame, const FrameInput& input);
-  void record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input, bool counting,
-              const gpu::RasterProgram* forward);
+  void record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input, bool counting);
 
   // What a program of the shading loop is compiled for.
   struct Variant {
     bool counting = false;
     bool sampled = false;  // the deferred reference of count_blocks()
-    bool long_walks = false;
+    ShadingLoop loop;
     uint32_t tile_class = 0;
     auto operator<=>(const Variant&) const = default;
   };
   // Made when first asked for: throws SystemError when the device refuses it.
   const gpu::ComputeProgram& program(const Variant& variant);
-  bool walks_far(const DeviceFrame& frame, const FrameInput& input) const;
+  const gpu::RasterProgram& forward_program(bool counting, bool long_walks);
+  ShadingLoop loop_of(const DeviceFrame& frame, const FrameInput& input, bool together) const;
+  // Records the blocks [begin, end) of the list that is bound.
+  void shade_blocks(gpu::Commands& commands, const Variant& variant, const gpu::Bindings& bindings,
+                    const FrameInput& input, uint32_t begin, uint32_t end);
   // Sorts the blocks by the class of the tiles that they lie in.
   void sort_blocks(const FrameInput& input, std::span<const glm::u16vec2> blocks);
   struct TileRange {
@@ -84,8 +88,8 @@ class ShadedAlgorithm final : private UploadMemory {
   uint32_t only_class_ = 0;
   bool one_class_ = true;
   std::map<Variant, gpu::ComputeProgram> programs_;
-  std::optional<gpu::ComputeProgram> composite_;                        // with split targets
-  std::optional<gpu::RasterProgram> forward_timed_, forward_counting_;  // with the effect
+  std::optional<gpu::ComputeProgram> composite_;                          // with split targets
+  std::map<std::pair<bool, bool>, gpu::RasterProgram> forward_programs_;  // by (counting, long walks)
 };
 
 }  // namespace ml

@@ -214,6 +214,16 @@ size_t choose(const std::vector<DeviceInfo>& infos, std::string selector) {
   return matches[0];
 }
 
+// What drivers do that no query tells.
+void apply_quirks(const vk::raii::PhysicalDevice& physical, DeviceLimits& limits) {
+  const vk::DriverId driver =
+      physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
+          .get<vk::PhysicalDeviceDriverProperties>()
+          .driverID;
+  // Mesa's gallivm (LP_MAX_TGSI_LOOP_ITERATIONS).
+  if (driver == vk::DriverId::eMesaLlvmpipe) limits.loop_iterations = 65535;
+}
+
 DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, const QueueChoice& queues) {
   auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties,
                                        vk::PhysicalDeviceVulkan13Properties>();
@@ -243,6 +253,7 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, const QueueCh
   for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
     if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
       result.device_memory = std::max<uint64_t>(result.device_memory, memory.memoryHeaps[i].size);
+  apply_quirks(physical, result);
   return result;
 }
 
@@ -324,6 +335,7 @@ Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>()) {
     d.main = {vk::raii::Queue(d.device, queues.main, 0), queues.main};
     d.second = {vk::raii::Queue(d.device, queues.second, queues.second_index), queues.second};
     d.validation = options.validation;
+    d.poison = options.poison;
   } catch (const vk::Error& error) {
     throw SystemError(std::string("cannot open a Vulkan device: ") + error.what());
   }

@@ -40,6 +40,9 @@ struct DeviceLimits {
   // The same of the second queue; the main one's where there is no second. Each queue family has its own.
   uint32_t second_timestamp_valid_bits = 0;
   double timestamp_period_ns = 0;
+  // After so many iterations the driver ends all loops of a shader, without a word, those of all lanes of a
+  // subgroup counted together; 0: it does not.
+  uint64_t loop_iterations = 0;
   bool fp64 = false;
   // Fragment shaders may number the triangles of a draw (gl_PrimitiveID), and write images.
   bool fragment_triangles = false, fragment_stores = false;
@@ -51,7 +54,13 @@ struct DeviceOptions {
   // without it discrete before integrated before virtual before software.
   std::string selector;
   bool validation = false;  // validation layer with synchronization validation
+  // Memory begins as garbage that no program mistakes for anything (poison_word), and what an upload buffer
+  // has beyond its used bytes is garbage again each time it is mapped: tests find what is read and never
+  // written.
+  bool poison = false;
 };
+
+constexpr uint32_t poison_word = 0xdeadbeefu;
 
 // All devices that the loader lists, usable or not. Throws SystemError when there is no Vulkan at all.
 // VK_ICD_FILENAMES, VK_DRIVER_FILES and VK_LOADER_* are the loader's own and are respected by it.

@@ -77,6 +77,11 @@ vk::SamplerCreateInfo sampler_info(const Sampling& sampling) {
   return info;
 }
 
+void poison(std::span<std::byte> memory) {
+  for (size_t i = 0; i < memory.size(); ++i)
+    memory[i] = static_cast<std::byte>(poison_word >> (8 * (i % sizeof poison_word)));
+}
+
 }  // namespace
 
 vk::Format vulkan_format(Format format) {
@@ -138,6 +143,13 @@ Buffer::Buffer(Device& owner, size_t bytes, MemoryKind kind, const std::string& 
   impl_->cached = static_cast<bool>(properties & Property::eHostCached);
   if (kind != MemoryKind::device)
     impl_->mapped = {static_cast<std::byte*>(impl_->memory.mapMemory(0, VK_WHOLE_SIZE)), bytes};
+  if (!device.poison) return;
+  poison(impl_->mapped);
+  if (kind != MemoryKind::device) return;
+  Commands commands(owner);
+  commands.begin(Timing::none);
+  commands.fill(*this, poison_word);
+  commands.submit();
 }
 
 Buffer::~Buffer() = default;
@@ -167,6 +179,7 @@ std::span<std::byte> UploadBuffer::map(size_t bytes) {
       twin_ = std::make_unique<Buffer>(*device_, host_->bytes(), MemoryKind::device, name_);
   }
   used_ = bytes;
+  if (device_->impl().poison) poison(host_->mapped().subspan(bytes));
   return host_->mapped().first(bytes);
 }
 

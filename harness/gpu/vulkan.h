@@ -45,7 +45,7 @@ struct Device::Impl {
   vk::PhysicalDeviceMemoryProperties memory;
   DeviceInfo info;
   DeviceLimits limits;
-  bool validation = false;
+  bool validation = false, poison = false;
   ProgramCache<ComputeProgram::Impl> compute_programs;
   ProgramCache<RasterProgram::Impl> raster_programs;
 };

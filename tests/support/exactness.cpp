@@ -26,7 +26,7 @@ class Exactness::Replaceable final : public Algorithm {
   ShadeShaders shade_shaders() const override { return (*inner_)->shade_shaders(); }
   std::vector<uint32_t> shade_constants() const override { return (*inner_)->shade_constants(); }
   bool walks_together() const override { return (*inner_)->walks_together(); }
-  uint64_t longest_walk() const override { return (*inner_)->longest_walk(); }
+  LongestWalk longest_walk(const FrameInput& frame) const override { return (*inner_)->longest_walk(frame); }
   TileClasses tile_classes() const override { return (*inner_)->tile_classes(); }
   std::vector<uint32_t> class_constants(uint32_t tile_class) const override {
     return (*inner_)->class_constants(tile_class);
