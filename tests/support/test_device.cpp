@@ -19,7 +19,7 @@ class CloseDevice final : public testing::Environment {
 }  // namespace
 
 gpu::Device& device() {
-  if (!holder()) holder() = std::make_unique<gpu::Device>(gpu::DeviceOptions{.validation = true, .poison = true});
+  if (!holder()) holder() = std::make_unique<gpu::Device>(gpu::DeviceOptions{"", true, true});
   return *holder();
 }
 
