@@ -100,5 +100,20 @@ TEST_F(HardCases, Case43_ListsOverTheStorageRangeAreAnError) {
   }
 }
 
+// Memory past the last light is garbage (gpu::DeviceOptions::poison); a test of one of those would be
+// counted.
+TEST_F(HardCases, Case56_NoLightPastTheCountIsLookedAt) {
+  const Camera camera = camera_at({0, 6, 12}, {0, 0, 0}, 24, 16);
+  Exactness check(floor_at({0, 0, 0}, 100), 24, 16, {.spots = true, .long_lists = false});
+  for (uint32_t count : {1u, 2u, 3u, 5u, 7u, 8u, 9u, 15u, 17u, 31u, 33u, 63u, 64u, 65u, 129u}) {
+    SCOPED_TRACE(count);
+    // All of them everywhere: lists and batches are full, the last batch is not.
+    const std::vector<Light> lights = scattered(count, {-2, 1, -2}, {2, 3, 2}, 60, 80, count, 0);
+    const Seen seen = check.expect_trials(camera, lights, every_algorithm(), 0);
+    for (const PixelCounts& counts : seen.counts)
+      for (size_t i = 0; i < counts.tested.size(); ++i) ASSERT_LE(counts.tested[i], count) << "pixel " << i;
+  }
+}
+
 }  // namespace
 }  // namespace ml::test

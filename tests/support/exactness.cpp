@@ -197,7 +197,10 @@ Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& li
   brute_.prepare(input_, spans, frame_.seen_blocks().places());
   brute_.count(frame_, input_);
   seen.image = result_picture(frame_);
-  EXPECT_EQ(mismatches(read_counts(frame_), seen.truth), 0u) << "pixels, brute_force";
+  seen.reference = read_counts(frame_);
+  EXPECT_EQ(mismatches(seen.reference, seen.truth), 0u) << "pixels, brute_force";
+  for (size_t i = 0; i < seen.lit.size(); ++i)
+    if (seen.lit[i]) EXPECT_EQ(seen.reference.tested[i], input_.lights.count()) << "brute_force, pixel " << i;
   EXPECT_EQ(compare_images(seen.image, seen.image).not_finite, 0u) << "brute_force";
 
   ideal_.prepare(input_, spans, frame_.seen_blocks().places());

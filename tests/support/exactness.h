@@ -51,6 +51,7 @@ struct Seen {
   ContributingLights truth;
   std::vector<uint8_t> lit;
   Picture image;                  // brute force
+  PixelCounts reference;          // of brute force
   std::vector<Picture> pictures;  // one for each trial
   std::vector<PixelCounts> counts;
   std::vector<PrepareCounters> prepared;
