@@ -166,10 +166,11 @@ Result run_config(const Config& config, const RunOptions& options) {
   for (const Case& item : cases) plan_case(config, item, case_seconds(config, item, cases), progress);
 
   std::vector<CaseResult> finished;
+  KeptFrame kept;
   for (const auto& [index, group] : groups) {
     const Setup& setup = config.setups[index];
     if (scene && !same_scene(scene_spec, setup.scene)) scene = nullptr;
-    SetupRun run(*device, config, group, scene, log);
+    SetupRun run(*device, config, group, scene, kept, log);
     scene = run.workload().scene();
     scene_spec = setup.scene;
     std::vector<CaseSeconds> expected;

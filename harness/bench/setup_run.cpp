@@ -46,8 +46,24 @@ nlohmann::json parameters_json(const Parameters& parameters) {
   return json;
 }
 
+namespace {
+
+// The kept frame where it fits the workload, else a new one in its place.
+DeviceFrame& frame_for(gpu::Device& device, Workload& workload, KeptFrame& kept) {
+  const uint32_t width = workload.frames().width(), height = workload.frames().height();
+  if (kept.frame && kept.scene == workload.scene() && kept.frame->effects() == workload.effects() &&
+      kept.frame->targets().width() == width && kept.frame->targets().height() == height)
+    return *kept.frame;
+  kept.frame.reset();  // before the new one takes as much memory
+  kept.frame = std::make_unique<DeviceFrame>(device, *workload.scene(), workload.effects(), width, height);
+  kept.scene = workload.scene();
+  return *kept.frame;
+}
+
+}  // namespace
+
 SetupRun::SetupRun(gpu::Device& device, const Config& config, const std::vector<Case>& cases,
-                   std::shared_ptr<const Scene> scene, RunLog& log)
+                   std::shared_ptr<const Scene> scene, KeptFrame& kept, RunLog& log)
     : device_(device),
       config_(config),
       cases_(cases),
@@ -56,10 +72,9 @@ SetupRun::SetupRun(gpu::Device& device, const Config& config, const std::vector<
         auto span = log.span("scene");
         return Workload(setup_of(config, cases), config.measure.threads, std::move(scene));
       }()),
-      frame_([&] {
+      frame_([&]() -> DeviceFrame& {
         auto span = log.span("programs");
-        return DeviceFrame(device, *workload_.scene(), workload_.effects(), workload_.frames().width(),
-                           workload_.frames().height());
+        return frame_for(device, workload_, kept);
       }()) {
   auto span = log_.span("programs");
   for (const Case& item : cases_) {

@@ -15,11 +15,18 @@ namespace ml {
 
 nlohmann::json parameters_json(const Parameters& parameters);
 
+// The device's frame of the setup before: a sweep's points whose level, effects and resolution are the same
+// share it, with the level's buffers and the g-buffer. Empty before the first.
+struct KeptFrame {
+  std::shared_ptr<const Scene> scene;
+  std::unique_ptr<DeviceFrame> frame;
+};
+
 class SetupRun {
  public:
-  // `cases` belong to this setup. Throws UsageError and SystemError.
+  // `cases` belong to this setup. `kept` outlives it. Throws UsageError and SystemError.
   SetupRun(gpu::Device& device, const Config& config, const std::vector<Case>& cases,
-           std::shared_ptr<const Scene> scene, RunLog& log);
+           std::shared_ptr<const Scene> scene, KeptFrame& kept, RunLog& log);
 
   // Every step calls `done` with the index of its case among `cases`.
   using Step = std::function<void(StepKind kind, size_t index, const std::string& what)>;
@@ -46,7 +53,7 @@ class SetupRun {
   std::vector<Case> cases_;
   RunLog& log_;
   Workload workload_;
-  DeviceFrame frame_;
+  DeviceFrame& frame_;
   std::vector<std::unique_ptr<ShadedAlgorithm>> algorithms_;
   std::vector<CaseResult> results_;
   std::vector<uint32_t> contradictions_;  // per case: samples whose times do not agree

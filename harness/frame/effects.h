@@ -54,7 +54,8 @@ struct Effects {
   // Programs are made as for devices whose subgroups are large, or not all of one size: tests ask for it.
   bool any_subgroup_size = false;
   bool poison_shared = false;  // shared memory begins as garbage: tests ask for it
-  bool long_walks = false;  // shading loops for long walks in every frame: tests ask for them
+  bool long_walks = false;     // shading loops for long walks in every frame: tests ask for them
+  bool operator==(const Effects&) const = default;
   // Those that are on, "omni" first.
   std::vector<std::string> names(const gpu::Device& device) const;
   // As FrameLightStorage::fill takes them: shapes that are off shine like omni lights, probe lights like
