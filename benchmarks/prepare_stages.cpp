@@ -92,20 +92,35 @@ void bounds(benchmark::State& state, Bound bound) {
   report(state, given.visible.count, given.pairs);
 }
 
-void refine(benchmark::State& state, bool refined) {
+enum class Narrowing { none, rows, ball_scalar, ball };
+
+void refine(benchmark::State& state, Narrowing narrowing) {
   Boxes given(static_cast<uint32_t>(state.range(0)));
   RefinementPlanes planes;
   planes.build(given.constants);
+  BallTest test;
+  test.build(given.constants);
   BoxOffsets offsets;
   offsets.build(given.constants.grid);
   FroxelPairs pairs;
   reserve_pairs(pairs, given.pairs);
   for (auto _ : state) {
-    if (refined)
-      emit_refined(given.visible, given.boxes.data(), nullptr, 0, given.visible.count, given.constants,
-                   planes, pairs);
-    else
-      simd::emit(given.boxes.data(), nullptr, given.visible.count, given.constants.grid, offsets, pairs);
+    const LightBox* boxes = given.boxes.data();
+    const size_t count = given.visible.count;
+    switch (narrowing) {
+      case Narrowing::none:
+        simd::emit(boxes, nullptr, count, given.constants.grid, offsets, pairs);
+        break;
+      case Narrowing::rows:
+        emit_refined(given.visible, boxes, nullptr, 0, count, given.constants, planes, pairs);
+        break;
+      case Narrowing::ball_scalar:
+        scalar::emit_tested(given.visible, boxes, nullptr, 0, count, given.constants, test, pairs);
+        break;
+      case Narrowing::ball:
+        simd::emit_tested(given.visible, boxes, nullptr, 0, count, given.constants, test, offsets, pairs);
+        break;
+    }
     benchmark::DoNotOptimize(pairs.cell.data());
     benchmark::ClobberMemory();
   }
@@ -126,8 +141,10 @@ void register_all() {
   }
   sized(benchmark::RegisterBenchmark("bounds/scalar", bounds, scalar::bound));
   sized(benchmark::RegisterBenchmark("bounds/fast", bounds, simd::bound));
-  sized(benchmark::RegisterBenchmark("refine/without", refine, false));
-  sized(benchmark::RegisterBenchmark("refine/with", refine, true));
+  sized(benchmark::RegisterBenchmark("refine/without", refine, Narrowing::none));
+  sized(benchmark::RegisterBenchmark("refine/with", refine, Narrowing::rows));
+  sized(benchmark::RegisterBenchmark("ball_test/scalar", refine, Narrowing::ball_scalar));
+  sized(benchmark::RegisterBenchmark("ball_test/fast", refine, Narrowing::ball));
 }
 
 }  // namespace

@@ -51,6 +51,12 @@ void bounds() {
   visible.count = simd::cull(input->frame.lights, 0, lights, constants, visible);
   std::vector<LightBox> boxes;
   reserve_padded(boxes, visible.count);
+  FroxelPairs pairs;
+  reserve_pairs(pairs, simd::bound(visible, constants, boxes.data()));
+  BoxOffsets offsets;
+  offsets.build(constants.grid);
+  BallTest test;
+  test.build(constants);
   Spans spans;
   for (bool warm_up : {true, false}) {
     {
@@ -63,6 +69,16 @@ void bounds() {
       simd::bound(visible, constants, boxes.data());
     }
     print("fast", {"bounds"}, warm_up);
+    {
+      auto span = spans.span("ball_test");
+      scalar::emit_tested(visible, boxes.data(), nullptr, 0, visible.count, constants, test, pairs);
+    }
+    print("scalar", {"ball_test"}, warm_up);
+    {
+      auto span = spans.span("ball_test");
+      simd::emit_tested(visible, boxes.data(), nullptr, 0, visible.count, constants, test, offsets, pairs);
+    }
+    print("fast", {"ball_test"}, warm_up);
   }
 }
 

@@ -63,8 +63,10 @@ void FroxelLists::bound(const FrameLights& lights, size_t p, bool by_depth,
   parts_[p].froxels = froxels;
 }
 
-void FroxelLists::emit(size_t p, bool by_depth, bool refinement, const BoundsConstants& constants,
+void FroxelLists::emit(size_t p, const FroxelSettings& settings, const BoundsConstants& constants,
                        uint64_t max_entries) {
+  const bool by_depth = settings.order == FroxelSettings::Order::depth;
+  const bool narrowed = settings.refinement || settings.ball_test;
   Part& part = parts_[p];
   const LightBox* boxes = boxes_.data();
   size_t first = runs_[p].first, count = runs_[p].count;
@@ -77,12 +79,15 @@ void FroxelLists::emit(size_t p, bool by_depth, bool refinement, const BoundsCon
     if (runs_.size() > 1) part.froxels = count_pairs(boxes, places, count);
   }
   const uint64_t pairs = part.froxels;
-  if (pairs > max_entries && !refinement) too_many(pairs, max_entries);
-  // Refinement leaves out about a tenth; demand far beyond the limit is refused before memory is taken for
+  if (pairs > max_entries && !narrowed) too_many(pairs, max_entries);
+  // Narrowing leaves out about a tenth; demand far beyond the limit is refused before memory is taken for
   // it.
   if (pairs > 4 * max_entries) too_many(pairs, max_entries);
   reserve_pairs(part.pairs, pairs);
-  if (refinement)
+  if (settings.ball_test)
+    simd::emit_tested(visible_, boxes_.data(), places, first, count, constants, ball_test_, box_offsets_,
+                      part.pairs);
+  else if (settings.refinement)
     emit_refined(visible_, boxes_.data(), places, first, count, constants, planes_, part.pairs);
   else
     simd::emit(boxes + first, places, count, grid_, box_offsets_, part.pairs);
@@ -173,13 +178,16 @@ void FroxelLists::build(const FrameInput& frame, const FroxelSettings& settings,
   }
   auto span = spans.span("bin");
   box_offsets_.build(grid_);
-  if (settings.refinement) planes_.build(constants);
+  if (settings.ball_test)
+    ball_test_.build(constants);
+  else if (settings.refinement)
+    planes_.build(constants);
   reserve_padded(boxes_, frame.lights.count());
   threads.for_each(runs_.size(), [&](size_t p) { bound(frame.lights, p, by_depth, constants); });
-  swept_ = runs_.size() == 1 && !settings.refinement && sweep(frame, by_depth, max_entries, memory, slot);
+  swept_ = runs_.size() == 1 && !settings.refinement && !settings.ball_test &&
+           sweep(frame, by_depth, max_entries, memory, slot);
   if (swept_) return;
-  threads.for_each(runs_.size(),
-                   [&](size_t p) { emit(p, by_depth, settings.refinement, constants, max_entries); });
+  threads.for_each(runs_.size(), [&](size_t p) { emit(p, settings, constants, max_entries); });
   uint64_t entries = 0;
   for (size_t p = 0; p < runs_.size(); ++p) entries += parts_[p].pairs.count;
   if (entries > max_entries) too_many(entries, max_entries);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algorithms/algorithm.h"
+#include "algorithms/froxels/ball_test.h"
 #include "algorithms/froxels/binning.h"
 #include "algorithms/froxels/depth_order.h"
 #include "algorithms/froxels/refinement.h"
@@ -20,9 +21,10 @@ struct FroxelSettings {
   enum class Order { index, depth };
   uint32_t tile = 24;  // px
   uint32_t slices = 16;
-  float zmin = 5;  // m, end of the near slice
-  float zmax = 0;  // m, 0: the view's far
-  bool refinement = false;
+  float zmin = 5;           // m, end of the near slice
+  float zmax = 0;           // m, 0: the view's far
+  bool refinement = false;  // refinement.h; without effect beside the ball test, which leaves out more
+  bool ball_test = false;   // ball_test.h
   Order order = Order::index;
 };
 
@@ -69,7 +71,7 @@ class FroxelLists {
   };
   void cull(const FrameInput& frame, bool by_depth, const BoundsConstants& constants);
   void bound(const FrameLights& lights, size_t p, bool by_depth, const BoundsConstants& constants);
-  void emit(size_t p, bool by_depth, bool refinement, const BoundsConstants& constants, uint64_t max_entries);
+  void emit(size_t p, const FroxelSettings& settings, const BoundsConstants& constants, uint64_t max_entries);
   // The lists of one run of lights without pairs; false: not worth it.
   bool sweep(const FrameInput& frame, bool by_depth, uint64_t max_entries, UploadMemory* memory,
              uint32_t slot);
@@ -85,6 +87,7 @@ class FroxelLists {
   FroxelGrid grid_;
   BoxOffsets box_offsets_;
   RefinementPlanes planes_;
+  BallTest ball_test_;
   // One for each of runs_ and of parts_ is in use.
   std::vector<PlaceRun> runs_;
   std::vector<Part> parts_;

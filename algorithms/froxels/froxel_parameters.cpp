@@ -10,7 +10,13 @@ std::vector<ParameterInfo> froxel_parameters() {
       ParameterInfo::real("zmax", 0, 0, 1e9,
                           "depth in metres at which the last slice ends; 0: the scene's far depth"),
       ParameterInfo::boolean("refinement", false, "narrow each row and slice of froxels to the light's ball"),
+      ball_test_parameter(),
   };
+}
+
+ParameterInfo ball_test_parameter() {
+  return ParameterInfo::boolean(
+      "ball_test", false, "leave out cells that the light's ball misses inside its box, by an exact test");
 }
 
 FroxelSettings froxel_settings(const Parameters& p) {
@@ -20,6 +26,7 @@ FroxelSettings froxel_settings(const Parameters& p) {
   settings.zmin = static_cast<float>(p.real("zmin"));
   settings.zmax = static_cast<float>(p.real("zmax"));
   settings.refinement = p.boolean("refinement");
+  settings.ball_test = p.boolean("ball_test");
   return settings;
 }
 

@@ -9,11 +9,13 @@
 
 namespace ml {
 
-// tile, slices, zmin, zmax, refinement.
+// tile, slices, zmin, zmax, refinement, ball_test.
 std::vector<ParameterInfo> froxel_parameters();
 FroxelSettings froxel_settings(const Parameters& parameters);
 // What is wrong with their combination at this resolution, or "".
 std::string froxel_check(const Parameters& parameters, uint32_t width, uint32_t height);
+
+ParameterInfo ball_test_parameter();
 
 // How pixels walk the lights of a cell: `walk`.
 ParameterInfo walk_parameter();

@@ -13,6 +13,7 @@ namespace {
 ForestSettings forest_settings(const Parameters& p) {
   ForestSettings settings = tree_settings(p);
   settings.threshold = static_cast<float>(p.real("threshold"));
+  settings.clipped = p.choice("heuristic") == "clipped";
   settings.list_lights = static_cast<uint32_t>(p.integer("list_lights"));
   return settings;
 }
@@ -39,8 +40,12 @@ AlgorithmEntry hybrid_entry() {
       tree_entry("hybrid", "froxels that hold a list or a tree, built on the CPU", froxel_parameters());
   entry.parameters.push_back(ParameterInfo::real(
       "threshold", 1, 0, 1e6,
-      "a froxel is a tree when its lights' clipped depth extents are on average below this part of its own "
+      "a froxel is a tree when its lights' depth extents are on average below this part of its own "
       "(listing 2: 0.5, the text: 1)"));
+  entry.parameters.push_back(ParameterInfo::choice("heuristic", "clipped", {"clipped", "unclipped"},
+                                                   "the mean is of depth extents clipped to the froxel "
+                                                   "(listing 2), or of whole ones, as in the authors' code "
+                                                   "(with list_lights 6)"));
   entry.parameters.push_back(ParameterInfo::integer(
       "list_lights", 24, 0, 4096,
       "a froxel of no more lights is a list whatever their extents; 0: as the paper, those of one leaf"));

@@ -16,6 +16,7 @@ FroxelSettings tiles(const Parameters& p) {
   FroxelSettings settings;
   settings.tile = static_cast<uint32_t>(p.integer("tile"));
   settings.slices = 1;
+  settings.ball_test = p.boolean("ball_test");
   return settings;
 }
 
@@ -39,7 +40,8 @@ class LightTree final : public TreeAlgorithm {
 AlgorithmEntry light_tree_entry() {
   AlgorithmEntry entry =
       tree_entry("light_tree", "one tree over depth for each tile, built on the CPU",
-                 {ParameterInfo::integer("tile", 24, 4, 1024, "side of a screen tile in pixels")});
+                 {ParameterInfo::integer("tile", 24, 4, 1024, "side of a screen tile in pixels"),
+                  ball_test_parameter()});
   entry.parameters.push_back(walk_parameter());
   entry.create = [](const Parameters& parameters) { return std::make_unique<LightTree>(parameters); };
   return entry;

@@ -62,15 +62,16 @@ HWY_INLINE DepthReach leaf_reach(const DepthReach* reaches, uint32_t count, Dept
     if (!summed) continue;
     const float inside =
         std::min(reaches[i].high, clip.high) + std::min(reaches[i].minus_low, clip.minus_low);
-    sum.add(std::max(inside, 0.0f) * steps);
+    sum.add(std::min(std::max(inside, 0.0f) * steps, max_extents * 65536));
   }
   return all;
 }
 #else
 struct StepSum {
   VI lanes;
-  // Every part is in two lanes, at most 65536 in each: after this many parts lanes hold no more than 2^30.
-  static constexpr uint32_t most = 16384;
+  // Every part is in two lanes, at most 2^20 in each: after this many parts all lanes together hold no more
+  // than 2^31.
+  static constexpr uint32_t most = 1024;
   uint32_t added = 0;
   uint64_t sum = 0;
   HWY_INLINE StepSum() : lanes(hn::Zero(ds)) {}
@@ -121,7 +122,7 @@ HWY_INLINE DepthReach leaf_reach(const DepthReach* reaches, uint32_t count, Dept
     if (!summed) return;
     const VF clipped = hn::Min(reach, ends);
     const VF inside = hn::Max(hn::Add(clipped, hn::Shuffle2301(clipped)), hn::Zero(df));
-    sum.add(hn::Mul(inside, step));
+    sum.add(hn::Min(hn::Mul(inside, step), hn::Set(df, max_extents * 65536)));
   };
   if (summed) sum.reserve(count);
   uint32_t i = 0;
@@ -133,11 +134,11 @@ HWY_INLINE DepthReach leaf_reach(const DepthReach* reaches, uint32_t count, Dept
 }
 #endif
 
-// Bounds of every leaf's lights into bounds[leaf]; returns the sum of all lights' depths clipped to the cell,
-// in steps.
+// Bounds of every leaf's lights into bounds[leaf]; returns the sum of all lights' depths, clipped to the cell
+// or not, in steps.
 HWY_INLINE uint64_t bound_leaves(const DepthReach* reaches, uint32_t count, uint32_t per_leaf,
-                                 FroxelGrid::DepthRange extent, DepthReach* bounds) {
-  const DepthReach clip{-extent.low, extent.high};
+                                 FroxelGrid::DepthRange extent, bool clipped, DepthReach* bounds) {
+  const DepthReach clip = clipped ? DepthReach{-extent.low, extent.high} : DepthReach{infinity, infinity};
   const float steps = extent_steps(extent);
   StepSum sum;
   for (uint32_t begin = 0; begin < count; begin += per_leaf)
@@ -280,7 +281,8 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
       size_t written = 0;
       if (lights > short_list) {
         const uint32_t per_leaf = leaf_size(settings.lights_per_leaf, lights);
-        const uint64_t sum = bound_leaves(reaches + (first - row_first), lights, per_leaf, extent, bounds);
+        const uint64_t sum =
+            bound_leaves(reaches + (first - row_first), lights, per_leaf, extent, settings.clipped, bounds);
         if (lights > per_leaf && is_tree(sum, lights, settings.threshold)) {
           written = write_tree(bounds, lights, first, per_leaf, settings.trim_padding, nodes);
           ++chunk.tree_cells;

@@ -20,6 +20,9 @@ struct ForestSettings {
   // Listing 2: a cell becomes a tree when the mean of its lights' depth extents, clipped to the cell, is
   // below this part of the cell's own extent; else a list. Infinite: always a tree. 0: always a list.
   float threshold = 1;
+  // The mean is of extents clipped to the cell, as in listing 2; false: of whole ones, as in the authors'
+  // code, each counted as at most max_extents of the cell's.
+  bool clipped = true;
   // Leave out the nodes behind the last leaf that has lights: only padding.
   bool trim_padding = true;
   // Lists are trees of one node, as in the paper (section 3.4), or several one after the other where a leaf
@@ -85,6 +88,9 @@ void cell_depth_extents(const FroxelGrid& grid, std::vector<FroxelGrid::DepthRan
 inline float extent_steps(FroxelGrid::DepthRange extent) {
   return extent.high > extent.low ? 65536.0f / (extent.high - extent.low) : 0.0f;
 }
+// 16 steps of the sum have room in what is added in single precision, and a mean beyond is a list by any
+// threshold that chooses.
+inline constexpr float max_extents = 16;
 // Whether the mean of `lights` extents, which sum up to `sum` steps, is below the threshold.
 inline bool is_tree(uint64_t sum, uint32_t lights, float threshold) {
   return static_cast<double>(sum) < static_cast<double>(threshold) * 65536.0 * lights;

@@ -19,17 +19,20 @@ void list_depth_first(uint32_t node, uint32_t nodes, std::vector<uint32_t>& tabl
 
 }  // namespace
 
-bool ReferenceForest::wants_tree(const ReferenceLists& lists, uint32_t cell, float threshold) const {
-  if (threshold == infinity) return true;
+bool ReferenceForest::wants_tree(const ReferenceLists& lists, uint32_t cell,
+                                 const ForestSettings& settings) const {
+  if (settings.threshold == infinity) return true;
   const FroxelGrid::DepthRange extent = cell_depths_[cell / lists.grid().tiles()];
   const uint32_t begin = lists.offsets()[cell], end = lists.offsets()[cell + 1];
   uint64_t sum = 0;
   for (uint32_t i = begin; i < end; ++i) {
     const DepthInterval light = lists.depth_of_rank()[lists.entries()[i]];
-    const float clipped = std::min(light.high, extent.high) - std::max(light.low, extent.low);
-    sum += static_cast<uint64_t>(std::nearbyint(std::max(clipped, 0.0f) * extent_steps(extent)));
+    const float depth = settings.clipped ? std::min(light.high, extent.high) - std::max(light.low, extent.low)
+                                         : light.high - light.low;
+    const float steps = std::max(depth, 0.0f) * extent_steps(extent);
+    sum += static_cast<uint64_t>(std::nearbyint(std::min(steps, max_extents * 65536)));
   }
-  return is_tree(sum, end - begin, threshold);
+  return is_tree(sum, end - begin, settings.threshold);
 }
 
 void ReferenceForest::append(const Node& node) {
@@ -79,7 +82,7 @@ void ReferenceForest::build(const ReferenceLists& lists, const ForestSettings& s
     const uint32_t begin = lists.offsets()[cell], count = lists.offsets()[cell + 1] - begin;
     const uint32_t per_leaf = leaf_size(settings.lights_per_leaf, count);
     const auto first_node = static_cast<uint32_t>(nodes_.size());
-    if (count > per_leaf && count > settings.list_lights && wants_tree(lists, cell, settings.threshold)) {
+    if (count > per_leaf && count > settings.list_lights && wants_tree(lists, cell, settings)) {
       build_tree(lists, cell, per_leaf, settings.trim_padding);
     } else if (!settings.list_nodes) {
       if (count > 0) cells_[cell] = {begin, ML_TREE_CELL_LIST | count};

@@ -27,7 +27,7 @@ class ReferenceForest {
     uint32_t first, lights, skip;
     bool leaf;
   };
-  bool wants_tree(const ReferenceLists& lists, uint32_t cell, float threshold) const;
+  bool wants_tree(const ReferenceLists& lists, uint32_t cell, const ForestSettings& settings) const;
   void build_tree(const ReferenceLists& lists, uint32_t cell, uint32_t per_leaf, bool trim);
   void append(const Node& node);
 

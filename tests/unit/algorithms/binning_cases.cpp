@@ -45,6 +45,7 @@ FroxelSettings random_settings(Random& random) {
   settings.zmin = log_uniform(random, 0.1f, 50);
   settings.zmax = random.below(2) ? settings.zmin * log_uniform(random, 1.5f, 1000) : 0;
   settings.refinement = random.below(2) != 0;
+  settings.ball_test = random.below(2) != 0;
   return settings;
 }
 

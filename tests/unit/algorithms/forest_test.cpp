@@ -32,6 +32,7 @@ ForestSettings random_forest(Random& random) {
   settings.trim_padding = random.below(2) != 0;
   settings.list_nodes = random.below(2) != 0;
   settings.list_lights = random.below(2) * random.below(100);
+  settings.clipped = random.below(2) != 0;
   return settings;
 }
 
@@ -90,7 +91,7 @@ TEST(Forest, FastPathGivesTheReferencesBits) {
     BinningFrame fixture(make(random, random.below(1500), camera), camera, 1 + random.below(400),
                          1 + random.below(400));
     FroxelSettings froxels = random_settings(random);
-    froxels.refinement = false;
+    froxels.refinement = froxels.ball_test = false;
     froxels.order = FroxelSettings::Order::depth;
     const ForestSettings settings = random_forest(random);
     Trees trees(fixture.frame, froxels, settings);

@@ -54,7 +54,7 @@ TEST(FroxelLists, VectorCodeGivesTheReferencesBits) {
     BinningFrame fixture(make(random, random.below(700), camera), camera, 1 + random.below(400),
                          1 + random.below(400));
     FroxelSettings settings = random_settings(random);
-    settings.refinement = false;
+    settings.refinement = settings.ball_test = false;
     FroxelLists lists{"clustered"};
     ReferenceLists reference;
     Spans spans;
@@ -97,27 +97,32 @@ TEST(FroxelLists, AreTheSameWhereTheyAreBuiltInUploadMemory) {
   EXPECT_LT(swept, 55u);
 }
 
-TEST(FroxelLists, RefinementOnlyTakesAway) {
-  size_t plain = 0, refined = 0;
+TEST(FroxelLists, NarrowingOnlyTakesAway) {
+  size_t plain = 0, refined = 0, tested = 0;
   for (uint32_t seed = 0; seed < 100; ++seed) {
     Random random(2000 + seed);
     Camera camera = random_camera(random);
     BinningFrame fixture(random_lights(random, 200, camera), camera, 320, 180);
     FroxelSettings settings = random_settings(random);
-    FroxelLists with{"clustered"}, without{"clustered"};
+    settings.refinement = settings.ball_test = false;
+    FroxelLists without{"clustered"};
     Spans spans;
-    settings.refinement = true;
-    with.build(fixture.frame, settings, no_limit, spans);
-    settings.refinement = false;
     without.build(fixture.frame, settings, no_limit, spans);
     plain += without.entries().size();
-    refined += with.entries().size();
-    for (uint32_t froxel = 0; froxel < with.grid().cells(); ++froxel) {
-      std::vector<uint32_t> fewer = list_of(with, froxel), more = list_of(without, froxel);
-      ASSERT_TRUE(std::ranges::includes(more, fewer)) << "seed " << seed << ", froxel " << froxel;
+    for (bool ball_test : {false, true}) {
+      settings.refinement = !ball_test;
+      settings.ball_test = ball_test;
+      FroxelLists with{"clustered"};
+      with.build(fixture.frame, settings, no_limit, spans);
+      (ball_test ? tested : refined) += with.entries().size();
+      for (uint32_t froxel = 0; froxel < with.grid().cells(); ++froxel) {
+        std::vector<uint32_t> fewer = list_of(with, froxel), more = list_of(without, froxel);
+        ASSERT_TRUE(std::ranges::includes(more, fewer)) << "seed " << seed << ", froxel " << froxel;
+      }
     }
   }
   EXPECT_LT(refined, plain);
+  EXPECT_LT(tested, refined);
 }
 
 TEST(FroxelLists, DoNotDependOnTheNumberOfThreads) {
@@ -125,9 +130,10 @@ TEST(FroxelLists, DoNotDependOnTheNumberOfThreads) {
     Random random(count);
     Camera camera = random_camera(random);
     std::vector<Light> lights = random_small_lights(random, count, camera);
-    for (bool refinement : {false, true}) {
+    for (int narrowing : {0, 1, 2}) {
       FroxelSettings settings;
-      settings.refinement = refinement;
+      settings.refinement = narrowing == 1;
+      settings.ball_test = narrowing == 2;
       std::vector<std::vector<uint32_t>> results;
       for (unsigned threads : {1u, 2u, 7u}) {
         BinningFrame fixture(lights, camera, 640, 360, threads);
@@ -166,9 +172,10 @@ TEST(FroxelLists, MoreEntriesThanTheLimitAreRefusedBeforeMemoryIsTaken) {
   BinningFrame fixture(lights, camera, 1920, 1080);
   FroxelLists lists{"clustered"};
   Spans spans;
-  for (bool refinement : {false, true}) {
+  for (int narrowing : {0, 1, 2}) {
     FroxelSettings settings;
-    settings.refinement = refinement;
+    settings.refinement = narrowing == 1;
+    settings.ball_test = narrowing == 2;
     EXPECT_THROW(lists.build(fixture.frame, settings, 1 << 25, spans), SystemError);
   }
 }

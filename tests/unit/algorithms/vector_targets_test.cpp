@@ -5,6 +5,7 @@
 #include <bit>
 #include <vector>
 
+#include "algorithms/froxels/ball_test.h"
 #include "algorithms/froxels/reference_lists.h"
 #include "algorithms/trees/reference_forest.h"
 #include "algorithms/vector_target.h"
@@ -178,6 +179,42 @@ TEST(VectorTargets, PairsAreThoseOfTheBoxes) {
   });
 }
 
+TEST(VectorTargets, BallTestGivesTheScalarPairs) {
+  uint64_t left_out = 0;
+  with_every_target([&] {
+    for (uint32_t seed = 0; seed < 60; ++seed) {
+      SCOPED_TRACE(seed);
+      RandomFrame given(5000 + seed);
+      const BoundsConstants constants = given.constants();
+      const VisibleLights visible = culled(given.frame(), constants);
+      std::vector<LightBox> boxes;
+      reserve_padded(boxes, visible.count);
+      const uint64_t sum = scalar::bound(visible, constants, boxes.data());
+      BoxOffsets offsets;
+      offsets.build(constants.grid);
+      BallTest test;
+      test.build(constants);
+      FroxelPairs pairs, expected;
+      reserve_pairs(pairs, sum);
+      reserve_pairs(expected, sum);
+      std::vector<uint32_t> places;
+      reserve_padded(places, visible.count);
+      for (size_t i = 0; i < visible.count; ++i) places[i] = static_cast<uint32_t>(visible.count - 1 - i);
+      for (bool ordered : {false, true}) {
+        const uint32_t* order = ordered ? places.data() : nullptr;
+        simd::emit_tested(visible, boxes.data(), order, 0, visible.count, constants, test, offsets, pairs);
+        scalar::emit_tested(visible, boxes.data(), order, 0, visible.count, constants, test, expected);
+        const auto used = [&](const std::vector<uint32_t>& all) { return std::span(all).first(pairs.count); };
+        ASSERT_EQ(pairs.count, expected.count);
+        ASSERT_TRUE(std::ranges::equal(used(pairs.cell), used(expected.cell)));
+        ASSERT_TRUE(std::ranges::equal(used(pairs.light), used(expected.light)));
+        left_out += sum - pairs.count;
+      }
+    }
+  });
+  EXPECT_GT(left_out, 0u);
+}
+
 // Whether it would be taken or not, and with lanes of 8, 16 and 32 bits.
 TEST(VectorTargets, SweptListsAreThoseOfTheBoxes) {
   with_every_target([] {
@@ -223,7 +260,7 @@ TEST(VectorTargets, ListsAndTreesAreThoseOfTheReference) {
       SCOPED_TRACE(seed);
       RandomFrame given(3000 + seed);
       FroxelSettings froxels = random_settings(given.random);
-      froxels.refinement = false;
+      froxels.refinement = froxels.ball_test = false;
       Spans spans;
       FroxelLists lists{"test"};
       ReferenceLists reference;
@@ -236,6 +273,7 @@ TEST(VectorTargets, ListsAndTreesAreThoseOfTheReference) {
       ForestSettings trees;
       trees.lights_per_leaf = 1 + given.random.below(20);
       trees.threshold = given.random.below(2) ? 1 : 0.4f;
+      trees.clipped = given.random.below(2) != 0;
       trees.list_nodes = given.random.below(2) != 0;
       lists.build(given.frame(), froxels, no_limit, spans);
       reference.build(given.frame(), froxels);

@@ -1,0 +1,52 @@
+// The exact test of a light's ball against a froxel: a tile's pyramid between two depths. Inside its box of
+// froxels a ball misses those at corners and edges; with one slice these are tiles, as in the code that the
+// authors of Tiled Light Trees published.
+//
+// At depth q the nearest point of a froxel lies at x and y clamped to the tile there, so its squared distance
+// g(q) from the ball's centre is a convex function of one variable: the smallest value over the froxel's
+// depths is looked for by two of Newton's steps. Whatever they find, g(a) + g'(a) (q - a) + (q - a)^2 lies
+// below g everywhere, and only where its smallest value exceeds the squared radius the froxel is left out: no
+// light is lost by a step that went astray, and where none did the test is exact.
+#pragma once
+
+#include "algorithms/froxels/binning.h"
+
+namespace ml {
+
+// Whether a box may hold froxels that its ball misses: along one axis alone the ball reaches every one.
+inline bool has_corners(const LightBox& box) {
+  return (box.columns > 1) + (box.rows > 1) + (box.slices > 1) > 1;
+}
+
+// What is constant over a frame; padded for vector code.
+struct BallTest {
+  // Window coordinates (slopes, or metres) between which the pixel centres of a column or row lie, and depths
+  // (m) of a slice's surface points; widened.
+  std::vector<float> column_low, column_high, row_low, row_high, slice_low, slice_high;
+  // Place of a froxel in its box: column + (row << 8) + (slice << 16), ordered as BoxOffsets is.
+  std::vector<uint32_t> places;
+  const uint32_t* box_places(uint32_t columns, uint32_t rows, uint32_t slices) const {
+    constexpr uint32_t most = BoxOffsets::max_extent;
+    return &places[(((columns - 1) * most + rows - 1) * most + slices - 1) * BoxOffsets::stride];
+  }
+  void build(const BoundsConstants& constants);
+};
+
+namespace scalar {
+// Whether the ball may reach a froxel; true where it does.
+bool ball_reaches(const BallTest& test, bool orthographic, float x, float y, float z, float radius,
+                  uint32_t column, uint32_t row, uint32_t slice);
+// See below.
+void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
+                 size_t count, const BoundsConstants& constants, const BallTest& test, FroxelPairs& pairs);
+}  // namespace scalar
+
+namespace simd {
+// Writes the pairs of those froxels that the balls reach. The boxes and their lights are those at
+// places[0..count), with padding behind them, or without places at [first, first + count).
+void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
+                 size_t count, const BoundsConstants& constants, const BallTest& test,
+                 const BoxOffsets& offsets, FroxelPairs& pairs);
+}  // namespace simd
+
+}  // namespace ml
