@@ -80,13 +80,10 @@ bool ball_reaches(const BallTest& t, bool orthographic, float x, float y, float 
     up = nearest_side(y, bottom, top, 1);
     across.edge = up.edge = 0;
   } else {
-    for (int step = 0; step < 2; ++step) {
-      across = nearest_side(x, left, right, depth);
-      up = nearest_side(y, bottom, top, depth);
-      depth =
-          clamped((z + across.edge * x + up.edge * y) / (1 + across.edge * across.edge + up.edge * up.edge),
-                  near, far);
-    }
+    across = nearest_side(x, left, right, depth);
+    up = nearest_side(y, bottom, top, depth);
+    const float squares = 1 + across.edge * across.edge + up.edge * up.edge;
+    depth = clamped((z + across.edge * x + up.edge * y) / squares, near, far);
     across = nearest_side(x, left, right, depth);
     up = nearest_side(y, bottom, top, depth);
   }

@@ -4,9 +4,9 @@
 //
 // At depth q the nearest point of a froxel lies at x and y clamped to the tile there, so its squared distance
 // g(q) from the ball's centre is a convex function of one variable: the smallest value over the froxel's
-// depths is looked for by two of Newton's steps. Whatever they find, g(a) + g'(a) (q - a) + (q - a)^2 lies
+// depths is looked for by a step of Newton's. Whatever it finds, g(a) + g'(a) (q - a) + (q - a)^2 lies
 // below g everywhere, and only where its smallest value exceeds the squared radius the froxel is left out: no
-// light is lost by a step that went astray, and where none did the test is exact.
+// light is lost by a step that went astray.
 #pragma once
 
 #include "algorithms/froxels/binning.h"

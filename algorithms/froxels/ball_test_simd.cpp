@@ -54,13 +54,11 @@ HWY_INLINE MF reaches(const Ball& ball, const Edges& e) {
     up = nearest_side(ball.y, e.bottom, e.top, one);
     across.edge = up.edge = hn::Zero(df);
   } else {
-    for (int step = 0; step < 2; ++step) {
-      across = nearest_side(ball.x, e.left, e.right, depth);
-      up = nearest_side(ball.y, e.bottom, e.top, depth);
-      const VF sum = hn::Add(hn::Add(ball.z, hn::Mul(across.edge, ball.x)), hn::Mul(up.edge, ball.y));
-      const VF squares = hn::Add(hn::Add(one, hn::Mul(across.edge, across.edge)), hn::Mul(up.edge, up.edge));
-      depth = clamped(hn::Div(sum, squares), e.near, e.far);
-    }
+    across = nearest_side(ball.x, e.left, e.right, depth);
+    up = nearest_side(ball.y, e.bottom, e.top, depth);
+    const VF sum = hn::Add(hn::Add(ball.z, hn::Mul(across.edge, ball.x)), hn::Mul(up.edge, ball.y));
+    const VF squares = hn::Add(hn::Add(one, hn::Mul(across.edge, across.edge)), hn::Mul(up.edge, up.edge));
+    depth = clamped(hn::Div(sum, squares), e.near, e.far);
     across = nearest_side(ball.x, e.left, e.right, depth);
     up = nearest_side(ball.y, e.bottom, e.top, depth);
   }

@@ -10,16 +10,17 @@ namespace ml {
 
 DepthKey::DepthKey(const gpu_data::ViewData& view)
     // A near plane at the camera, or behind it, would spend most keys on the last micrometre.
-    : near_(std::bit_cast<uint32_t>(std::max(view.near, view.far * 1e-9f))),
-      far_(std::bit_cast<uint32_t>(std::max(view.near, view.far))),
-      shift_(0) {
-  while ((far_ - near_) >> shift_ > most) ++shift_;
+    : near_(std::bit_cast<uint32_t>(std::max(view.near, view.far * 1e-9f))), last_(0), shift_(0) {
+  constexpr uint32_t octave = 1u << 23, largest = 0x7f7fffffu;  // in a float's bits; the largest finite float
+  const uint32_t far = std::bit_cast<uint32_t>(std::max(view.near, view.far));
+  while ((std::min(far + octave, largest) - near_) >> shift_ > most) ++shift_;
+  last_ = static_cast<uint32_t>(std::min<uint64_t>(near_ + ((uint64_t{most} + 1) << shift_) - 1, largest));
 }
 
 uint32_t DepthKey::operator()(float z) const {
-  // Negative numbers are negative as integers too; what is not a number is beyond the far depth.
+  // Negative numbers are negative as integers too; what is not a number is beyond all depths.
   const auto clamped =
-      std::clamp(std::bit_cast<int32_t>(z), static_cast<int32_t>(near_), static_cast<int32_t>(far_));
+      std::clamp(std::bit_cast<int32_t>(z), static_cast<int32_t>(near_), static_cast<int32_t>(last_));
   return (static_cast<uint32_t>(clamped) - near_) >> shift_;
 }
 

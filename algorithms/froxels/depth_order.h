@@ -13,8 +13,10 @@
 namespace ml {
 
 // Depth as a number of 16 bits to sort by: steps of 1/2048 of the depth or finer while near and far are not
-// more than 30 octaves apart. Centres before the near plane are 0, those beyond the far depth 65535. Trees
-// stay right for any order of their lights, only their bounds grow; steps this fine change none noticeably.
+// more than 29 octaves apart. Centres before the near plane are 0. Those beyond the far depth are sorted by
+// the same steps for an octave or more, as far as the numbers reach, and only what lies behind is 65535: a
+// tree over lights of one key would be no better than a list. Trees stay right for any order of their lights,
+// only their bounds grow; steps this fine change none noticeably.
 class DepthKey {
  public:
   static constexpr uint32_t bits = 16, most = (1u << bits) - 1;
@@ -22,7 +24,7 @@ class DepthKey {
   uint32_t operator()(float z) const;
 
  private:
-  uint32_t near_, far_, shift_;  // bits of positive floats, which ascend with their values
+  uint32_t near_, last_, shift_;  // bits of positive floats, which ascend with their values
 };
 
 // A run of visible lights: elements [first, first + count) of arrays that all runs share.

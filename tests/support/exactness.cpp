@@ -61,6 +61,7 @@ Trial trial_of(const std::string& algorithm, const GridSettings& grid, bool alon
       {"zmin", grid.zmin},
       {"zmax", grid.zmax},
       {"refinement", grid.refinement},
+      {"ball_test", grid.ball_test},
       {"light_data", std::string(grid.duplicated ? "duplicated" : "indexed")},
       {"walk", std::string(alone ? "pixel" : "subgroup")},
   };
@@ -137,6 +138,7 @@ Trial random_trial(Random& random, uint32_t width, uint32_t height) {
 
 std::vector<GridSettings> usual_settings() {
   return {{.refinement = false, .duplicated = false},
+          {.tile = 11, .ball_test = true},
           {.tile = 16, .refinement = true},
           {.tile = 7, .slices = 64, .zmin = 0.5, .duplicated = true},
           {.tile = 5, .slices = 1, .refinement = true, .duplicated = true},

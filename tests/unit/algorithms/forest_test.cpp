@@ -226,6 +226,21 @@ TEST(Forest, OneTileHoldsAsManyLightsAsAFrameHas) {
   }
 }
 
+TEST(Forest, LightsBeyondTheFarDepthAreSortedToo) {
+  std::vector<Light> lights(4000);
+  for (size_t i = 0; i < lights.size(); ++i) {
+    // One after the other in an order that is none of depth; the far depth is 100 m.
+    const double depth = 105 + 80.0 * static_cast<double>(i * 1237 % lights.size()) / 4000.0;
+    lights[i].position = {0.1, 0.1, -depth}, lights[i].radius = 3;
+  }
+  BinningFrame fixture(lights, square_camera(), 64, 64);
+  ForestSettings settings;
+  settings.threshold = infinity;
+  Trees trees(fixture.frame, one_tile(), settings);
+  ASSERT_EQ(trees.lists.entries().size(), lights.size());
+  for (float depth : {106.0f, 140.0f, 183.0f}) EXPECT_LT(trees.walk(0, depth).size(), 400u) << depth;
+}
+
 TEST(Forest, PaddingIsNeverHit) {
   Random random(3);
   Camera camera = random_camera(random);

@@ -183,7 +183,7 @@ TEST(FroxelLists, MoreEntriesThanTheLimitAreRefusedBeforeMemoryIsTaken) {
 TEST(FroxelLists, AllLightsInOneFroxel) {
   Camera camera;
   camera.projection = Projection::perspective(1, 1, 0.1f, 100);
-  for (uint32_t count : {65535u, 65536u, 65537u}) {
+  for (uint32_t count : {255u, 256u, 257u, 65535u, 65536u, 65537u}) {
     std::vector<Light> lights(count);
     for (Light& light : lights) light.position = {0.3, 0.3, -3}, light.radius = 0.1f;
     BinningFrame fixture(lights, camera, 64, 64);
@@ -192,7 +192,9 @@ TEST(FroxelLists, AllLightsInOneFroxel) {
     FroxelLists lists{"clustered"};
     Spans spans;
     lists.build(fixture.frame, settings, no_limit, spans);
-    EXPECT_EQ(lists.entries().size(), count);
+    ASSERT_EQ(lists.entries().size(), count);
+    EXPECT_EQ(lists.longest(), count);
+    for (uint32_t i = 0; i < count; ++i) ASSERT_EQ(lists.entries()[i], i);
   }
 }
 
