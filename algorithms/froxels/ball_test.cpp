@@ -44,13 +44,12 @@ void BallTest::build(const BoundsConstants& c) {
                column_high);
   window_edges(c.grid.rows, c.grid.tile, c.last_row_pixel, c.top_edge, c.y_pixels_per_unit, row_low,
                row_high);
-  std::vector<FroxelGrid::DepthRange> slices;
-  c.grid.slice_ranges(slices);
-  reserve_padded(slice_low, slices.size());
-  reserve_padded(slice_high, slices.size());
-  for (size_t slice = 0; slice < slices.size(); ++slice) {
-    slice_low[slice] = std::max(slices[slice].low, c.view.near * 0.99999f);
-    slice_high[slice] = std::max(slices[slice].high, slice_low[slice]);
+  c.grid.slice_ranges(depth_ranges);
+  reserve_padded(slice_low, depth_ranges.size());
+  reserve_padded(slice_high, depth_ranges.size());
+  for (size_t slice = 0; slice < depth_ranges.size(); ++slice) {
+    slice_low[slice] = std::max(depth_ranges[slice].low, c.view.near * 0.99999f);
+    slice_high[slice] = std::max(depth_ranges[slice].high, slice_low[slice]);
   }
   if (!places.empty()) return;
   constexpr uint32_t most = BoxOffsets::max_extent;

@@ -23,6 +23,7 @@ struct BallTest {
   // Window coordinates (slopes, or metres) between which the pixel centres of a column or row lie, and depths
   // (m) of a slice's surface points; widened.
   std::vector<float> column_low, column_high, row_low, row_high, slice_low, slice_high;
+  std::vector<FroxelGrid::DepthRange> depth_ranges;  // what build() takes the slices' depths from
   // Place of a froxel in its box: column + (row << 8) + (slice << 16), ordered as BoxOffsets is.
   std::vector<uint32_t> places;
   const uint32_t* box_places(uint32_t columns, uint32_t rows, uint32_t slices) const {
