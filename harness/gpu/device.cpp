@@ -241,6 +241,7 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, const QueueCh
   result.one_subgroup_size =
       sizes.minSubgroupSize == sizes.maxSubgroupSize && sizes.minSubgroupSize == subgroups.subgroupSize;
   result.push_constant_bytes = limits.maxPushConstantsSize;
+  result.subpixel_bits = limits.subPixelPrecisionBits;
   const std::vector<vk::QueueFamilyProperties> families = physical.getQueueFamilyProperties();
   result.timestamp_valid_bits = families[queues.main].timestampValidBits;
   result.second_timestamp_valid_bits = families[queues.second].timestampValidBits;

@@ -35,6 +35,7 @@ struct DeviceLimits {
   std::array<uint32_t, 3> group_count{};  // workgroups per dispatch
   uint32_t subgroup_size = 0;             // lanes
   bool one_subgroup_size = false;         // no program has subgroups of another size
+  uint32_t subpixel_bits = 0;             // vertices are moved to multiples of 2^-bits px
   uint32_t push_constant_bytes = 0;
   uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
   // The same of the second queue; the main one's where there is no second. Each queue family has its own.
