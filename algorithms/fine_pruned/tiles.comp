@@ -39,11 +39,11 @@ const uint lists = EFFECT_PROBES ? 2u : 1u;   // of a tile: direct lights, and p
 shared uint kept[2u * ML_PACKED_LIGHTS];
 
 void poison_shared() {
-  const uint thread = gl_LocalInvocationIndex;
   poison_batches();
-  for (uint i = thread; i < ML_PRUNED_CHUNK + batch; i += ML_PRUNED_GROUP) coarse[i] = poison_word;
-  if (thread < 2u * ML_PACKED_LIGHTS) kept[thread] = poison_word;
-  if (thread < 2u) survivors[thread] = poison_word;
+  for (uint i = gl_LocalInvocationIndex; i < ML_PRUNED_CHUNK + batch; i += ML_PRUNED_GROUP) coarse[i] = poison_word;
+  if (gl_LocalInvocationIndex < 2u * ML_PACKED_LIGHTS) kept[gl_LocalInvocationIndex] = poison_word;
+  if (gl_LocalInvocationIndex < 2u) survivors[gl_LocalInvocationIndex] = poison_word;
+  barrier();
 }
 
 uint candidate(uint place) { return REGIONS ? region_lists[region_list + 1u + place] : place; }
@@ -82,12 +82,9 @@ void set_bit(uint at, inout uvec2 mask) {
     PRUNE(volume, end, i)                                                                    \
     PRUNE(volume, end, (i + 1u))                                                             \
     if (LONG_LISTS) {                                                                        \
-      PRUNE(volume, end, (i + 2u))                                                           \
-      PRUNE(volume, end, (i + 3u))                                                           \
-      PRUNE(volume, end, (i + 4u))                                                           \
-      PRUNE(volume, end, (i + 5u))                                                           \
-      PRUNE(volume, end, (i + 6u))                                                           \
-      PRUNE(volume, end, (i + 7u))                                                           \
+      PRUNE(volume, end, (i + 2u)) PRUNE(volume, end, (i + 3u))                              \
+      PRUNE(volume, end, (i + 4u)) PRUNE(volume, end, (i + 5u))                              \
+      PRUNE(volume, end, (i + 6u)) PRUNE(volume, end, (i + 7u))                              \
     }                                                                                        \
   }
 
@@ -197,10 +194,7 @@ uint keep_batch(uint first_light, uint count, uint field, uint held) {
 void main() {
   const uint thread = gl_LocalInvocationIndex;
   const uint tile = gl_WorkGroupID.y * push.columns + gl_WorkGroupID.x;
-  if (POISON_SHARED) {
-    poison_shared();
-    barrier();
-  }
+  if (POISON_SHARED) poison_shared();
   clear_batches();
   load_points();
 

@@ -91,7 +91,9 @@ const std::vector<Row>& effects() {
        "subgroups that walk together test batches of lights until one has a light that contributes, and "
        "shade "
        "then (shading.test_ahead: false | true)"},
-      {"long_lists", "passes over all lights take several an iteration: more than 28,000 lights on a driver that ends loops"},
+      {"long_lists",
+       "passes over all lights take several an iteration: more than 28,000 lights on a driver that ends "
+       "loops"},
   };
   return rows;
 }

@@ -83,9 +83,10 @@ const gpu::RasterProgram& ShadedAlgorithm::forward_program(bool counting, bool l
   set_long_walks(constants, long_walks);
   append_numbered(constants, first_own_id, algorithm_->shade_constants());
   return forward_programs_
-      .emplace(key, Level::forward_program(
-                        device_, counting ? shaders.forward_counting : shaders.forward,
-                        entry_.info.name + (counting ? ": forward, counting" : ": forward"), effects_, constants))
+      .emplace(key,
+               Level::forward_program(device_, counting ? shaders.forward_counting : shaders.forward,
+                                      entry_.info.name + (counting ? ": forward, counting" : ": forward"),
+                                      effects_, constants))
       .first->second;
 }
 

@@ -16,7 +16,8 @@ ML_SIZE(BlockBounds, 24);
 struct ContributingPush {
   uvec2 blocks;     // blocks across and down
   uint mask_words;  // words of 32 lights in a group's mask
-  // Words that a dispatch of contributing_pixels.comp looks at; what it finds is added to what those before found.
+  // Words that a dispatch of contributing_pixels.comp looks at; what it finds is added to what those before
+  // found.
   uint first_word, end_word;
 };
 ML_SIZE(ContributingPush, 20);
