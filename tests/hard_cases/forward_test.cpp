@@ -81,6 +81,7 @@ std::vector<Light> lights() {
 }
 
 TEST_F(ForwardMaterials, EveryPixelIsLitOnceByEveryAlgorithmAsIfItWereDeferred) {
+  if (!lights_forward_materials()) GTEST_SKIP() << no_forward_materials;
   // brute_force, ideal and all others: counted lights are the reference's, so none is missing and none there
   // twice.
   Exactness forward(tangle(), width, height, with_forward(true));
@@ -94,6 +95,7 @@ TEST_F(ForwardMaterials, EveryPixelIsLitOnceByEveryAlgorithmAsIfItWereDeferred) 
 }
 
 TEST_F(ForwardMaterials, DeferredPassLeavesMarkedPixelsOutAndTheForwardPassTouchesNoOther) {
+  if (!lights_forward_materials()) GTEST_SKIP() << no_forward_materials;
   Exactness forward(tangle(), width, height, with_forward(true));
   const Seen seen = forward.expect_trials(before_it(), lights(), {}, 0);
   const std::vector<uint32_t> marks = forward.frame().read_words(*forward.frame().targets().forward);
@@ -125,6 +127,7 @@ TEST_F(ForwardMaterials, RunWithoutForwardMaterialsHasNoneOfIt) {
 }
 
 TEST_F(ForwardMaterials, SceneThatIsForwardAltogether) {
+  if (!lights_forward_materials()) GTEST_SKIP() << no_forward_materials;
   Scene scene = yard();
   for (Material& material : scene.materials) material.forward = true;
   const Camera camera = camera_at({0, 6, 30}, {0, 1, 0}, width, height);
@@ -139,6 +142,7 @@ TEST_F(ForwardMaterials, SceneThatIsForwardAltogether) {
 }
 
 TEST_F(ForwardMaterials, FarFromTheOriginInAnOrthographicPicture) {
+  if (!lights_forward_materials()) GTEST_SKIP() << no_forward_materials;
   Scene scene = yard();
   for (size_t i = 1; i < scene.materials.size(); ++i) scene.materials[i].forward = true;
   Camera camera = camera_at({4, 40, 30}, {4, 0, 0}, width, height);

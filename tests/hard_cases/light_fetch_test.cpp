@@ -58,26 +58,26 @@ TEST_F(LightFetch, ProgramsForSubgroupsOfAnySizeGiveTheSameBits) {
   expect_same(one, other);
 }
 
-TEST_F(LightFetch, TestingAheadGivesTheSameBits) {
+// Which programs test ahead: for long lists, and for subgroups of any size.
+class TestingAhead : public DeviceTest, public testing::WithParamInterface<std::pair<bool, bool>> {};
+
+TEST_P(TestingAhead, GivesTheSameBits) {
   const Camera camera = camera_at({-3, 5, 22}, {-2, 1, 0}, width, height);
   std::vector<Light> lights = mixed_shapes(900, {-25, 0, -20}, {25, 7, 18}, 0.5, 9, 3);
   for (size_t i = 0; i < lights.size(); i += 7) lights[i].probe = true;
-  struct Programs {
-    bool long_lists, any_subgroup_size;
-  };
-  for (Programs programs : {Programs{false, false}, Programs{true, false}, Programs{true, true}}) {
-    SCOPED_TRACE(testing::Message() << "long lists " << programs.long_lists << ", subgroups of any size "
-                                    << programs.any_subgroup_size);
-    Effects effects = fetched(true, programs.long_lists);
-    effects.any_subgroup_size = programs.any_subgroup_size;
-    Exactness batches(yard(), width, height, effects);
-    effects.test_ahead = true;
-    Exactness ahead(yard(), width, height, effects);
-    const Seen one = batches.expect_trials(camera, lights, every_algorithm(), 12);
-    const Seen other = ahead.expect_trials(camera, lights, every_algorithm(), 12);
-    expect_same(one, other);
-  }
+  Effects effects = fetched(true, GetParam().first);
+  effects.any_subgroup_size = GetParam().second;
+  Exactness batches(yard(), width, height, effects);
+  effects.test_ahead = true;
+  Exactness ahead(yard(), width, height, effects);
+  const Seen one = batches.expect_trials(camera, lights, every_algorithm(), 12);
+  const Seen other = ahead.expect_trials(camera, lights, every_algorithm(), 12);
+  expect_same(one, other);
 }
+
+INSTANTIATE_TEST_SUITE_P(LightFetch, TestingAhead,
+                         testing::Values(std::pair(false, false), std::pair(true, false),
+                                         std::pair(true, true)));
 
 // A buffer of a single light is as small as buffers get.
 TEST_F(LightFetch, OneLightAndNone) {

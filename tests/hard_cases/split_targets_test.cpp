@@ -78,6 +78,7 @@ TEST_F(SplitTargets, ShadingPassKnowsNoAlbedo) {
 }
 
 TEST_F(SplitTargets, ForwardMaterialsAreLitAfterTheComposite) {
+  if (!lights_forward_materials()) GTEST_SKIP() << no_forward_materials;
   Scene scene = materials_yard();
   for (size_t i = 0; i < scene.materials.size(); i += 2) scene.materials[i].forward = true;
   Exactness split(scene, width, height, targets(true, true));
