@@ -27,7 +27,9 @@ json museum(const Folder& folder, const json& algorithm, std::vector<std::pair<s
                                  {"measure.warmup", 0},
                                  {"algorithms", json::array({algorithm})},
                                  {"outputs.images", json::array()}});
-  std::vector<std::string> arguments = {"run", "museum", "--out", (folder / "out").string(), "--quiet"};
+  // Lists do not ask how a material is lit, and not every device lights forward materials.
+  std::vector<std::string> arguments = {
+      "run", "museum", "--out", (folder / "out").string(), "--quiet", "--set", "effects.forward=off"};
   for (const auto& [key, value] : changes) {
     arguments.emplace_back("--set");
     arguments.push_back(key + "=" + value.dump());

@@ -77,7 +77,11 @@ TEST_P(TestingAhead, GivesTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(LightFetch, TestingAhead,
                          testing::Values(std::pair(false, false), std::pair(true, false),
-                                         std::pair(true, true)));
+                                         std::pair(true, true)),
+                         [](const auto& instance) {
+                           return std::string(instance.param.first ? "LongLists" : "ShortLists") +
+                                  (instance.param.second ? "InSubgroupsOfAnySize" : "");
+                         });
 
 // A buffer of a single light is as small as buffers get.
 TEST_F(LightFetch, OneLightAndNone) {

@@ -14,10 +14,22 @@ struct Part {
   uint32_t max_lights;
 };
 
+void PrintTo(const Part& part, std::ostream* out) {
+  *out << fmt::format("{}x{} px, {} cases of up to {} lights, seed {}", part.width, part.height, part.cases,
+                      part.max_lights, part.seed);
+}
+
+// Every process compiles its programs anew on a driver that keeps none: a few parts are enough there.
+bool is_thinned(const Part& part) {
+  constexpr uint32_t kept = 5;
+  return device().info().name.find("SwiftShader") != std::string::npos && part.seed % 100 > kept;
+}
+
 class RandomCases : public HardCases, public testing::WithParamInterface<Part> {};
 
 TEST_P(RandomCases, EvaluateTheLightsOfBruteForce) {
   const Part& part = GetParam();
+  if (is_thinned(part)) GTEST_SKIP() << "thinned on SwiftShader";
   Effects effects = all_shapes(part.max_lights > max_lights_of_short_passes);
   // Trees with a leaf a light need more nodes than the smallest texel buffers show.
   effects.texel_fetch = part.width % 2 == 0 && device().limits().texel_buffer_bytes >= (uint64_t{1} << 24);
@@ -49,8 +61,8 @@ std::vector<Part> few_lights() {
 std::vector<Part> many_lights() {
   std::vector<Part> parts;
   for (uint32_t seed = 1; seed <= 8; ++seed) {
-    parts.push_back({"Ordinary", 64, 36, 4, 300 + seed, 70'000});
-    parts.push_back({"Tiny", 5, 3, 8, 400 + seed, 70'000});
+    parts.push_back({"Ordinary", 64, 36, 3, 300 + seed, 70'000});
+    parts.push_back({"Tiny", 5, 3, 3, 400 + seed, 70'000});
   }
   return parts;
 }
