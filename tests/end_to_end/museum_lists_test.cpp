@@ -40,6 +40,7 @@ json museum(const Folder& folder, const json& algorithm, std::vector<std::pair<s
 }
 
 TEST(MuseumLists, AreAsLongAsTheDescriptionHasThem) {
+  if (on_swiftshader()) GTEST_SKIP() << "takes minutes on SwiftShader";
   Folder folder;
   const json result =
       museum(folder,
@@ -84,6 +85,7 @@ double least_lights_a_tile(const json& result, const std::filesystem::path& out)
 // The chapter's own coarse lists, by hulls and depths, are so short that no exact pruning makes them a tenth:
 // a pixel's lights have to stay.
 TEST(MuseumLists, OfHullsAndDepthsAreShortAndPrunedNearlyToTheLeast) {
+  if (on_swiftshader()) GTEST_SKIP() << "takes minutes on SwiftShader";
   Folder folder;
   std::vector<uint32_t> frames(16);
   std::iota(frames.begin(), frames.end(), 0u);
