@@ -204,7 +204,7 @@ void main() {
 #ifdef CURSOR_RUNS
   if (WALK_TOGETHER) {
     const bool lit = inside && surface_to_light(pixel, point);
-    // With long lists a subgroup that lies in several cells would take too many turns: its pixels walk alone.
+    // With long lists a subgroup that lies in several cells would take too many iterations: its pixels walk alone.
     const bool together = !LONG_LISTS || in_one_cell(point, lit);
     shade_together(point, lit && together, sum);
     if (LONG_LISTS && lit && !together) shade_alone(point, sum);

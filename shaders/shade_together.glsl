@@ -39,8 +39,8 @@ void test_four(SurfacePoint point, LightCore own, LightExtra own_extra, uint lan
   test_lane(point, own, own_extra, lane + 3u, batch, wanted, contributing);
 }
 
-// Tests a batch of up to as many lights as there are lanes; a bit for each that contributes. Turns are short on some drivers (light_eval.glsl,
-// LONG_LISTS): four lights a turn, with long lists eight, and in small subgroups then no turn but the caller's.
+// Tests a batch of up to as many lights as there are lanes; a bit for each that contributes. Iterations are few on some drivers
+// (harness/frame/shading_loops.h): four lights each, with long lists eight, and in small subgroups then none but the caller's.
 uint test_batch(SurfacePoint point, LightCore own, LightExtra own_extra, uint batch, bool wanted) {
   uint contributing = 0u, i = 0u;
   if (LONG_LISTS && small_subgroup) {
