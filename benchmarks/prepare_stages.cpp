@@ -115,10 +115,11 @@ void refine(benchmark::State& state, Narrowing narrowing) {
         emit_refined(given.visible, boxes, nullptr, 0, count, given.constants, planes, pairs);
         break;
       case Narrowing::ball_scalar:
-        scalar::emit_tested(given.visible, boxes, nullptr, 0, count, given.constants, test, pairs);
+        scalar::emit_tested(given.visible, boxes, nullptr, 0, count, given.constants, test, nullptr, pairs);
         break;
       case Narrowing::ball:
-        simd::emit_tested(given.visible, boxes, nullptr, 0, count, given.constants, test, offsets, pairs);
+        simd::emit_tested(given.visible, boxes, nullptr, 0, count, given.constants, test, offsets, nullptr,
+                          pairs);
         break;
     }
     benchmark::DoNotOptimize(pairs.cell.data());

@@ -71,12 +71,13 @@ void bounds() {
     print("fast", {"bounds"}, warm_up);
     {
       auto span = spans.span("ball_test");
-      scalar::emit_tested(visible, boxes.data(), nullptr, 0, visible.count, constants, test, pairs);
+      scalar::emit_tested(visible, boxes.data(), nullptr, 0, visible.count, constants, test, nullptr, pairs);
     }
     print("scalar", {"ball_test"}, warm_up);
     {
       auto span = spans.span("ball_test");
-      simd::emit_tested(visible, boxes.data(), nullptr, 0, visible.count, constants, test, offsets, pairs);
+      simd::emit_tested(visible, boxes.data(), nullptr, 0, visible.count, constants, test, offsets, nullptr,
+                        pairs);
     }
     print("fast", {"ball_test"}, warm_up);
   }

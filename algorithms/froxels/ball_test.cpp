@@ -2,6 +2,7 @@
 #include "algorithms/froxels/ball_test.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ml {
 namespace {
@@ -67,8 +68,8 @@ void BallTest::build(const BoundsConstants& c) {
 
 namespace scalar {
 
-bool ball_reaches(const BallTest& t, bool orthographic, float x, float y, float z, float radius,
-                  uint32_t column, uint32_t row, uint32_t slice) {
+BallInFroxel ball_in_froxel(const BallTest& t, bool orthographic, float x, float y, float z, float radius,
+                            uint32_t column, uint32_t row, uint32_t slice) {
   const float left = t.column_low[column], right = t.column_high[column];
   const float bottom = t.row_low[row], top = t.row_high[row];
   const float near = t.slice_low[slice], far = t.slice_high[slice];
@@ -90,11 +91,17 @@ bool ball_reaches(const BallTest& t, bool orthographic, float x, float y, float 
   const float distance2 = ahead * ahead + across.away * across.away + up.away * up.away;
   const float half_slope = ahead + across.edge * across.away + up.edge * up.away;
   const float step = clamped(0 - half_slope, near - depth, far - depth);
-  return !(distance2 + step * (half_slope + half_slope + step) > radius * radius);
+  const bool reached = !(distance2 + step * (half_slope + half_slope + step) > radius * radius);
+  // Where distance2 + 2 half_slope s + s^2 is radius^2, s metres behind `depth`.
+  const float squares = half_slope * half_slope + radius * radius;
+  const float half = std::sqrt(std::max(squares - distance2 + squares * chord_slack, 0.0f));
+  const float middle = depth - half_slope;
+  return {reached, {(half - middle) * 0.99999f, (half + middle) * 1.00001f}};
 }
 
 void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
-                 size_t count, const BoundsConstants& c, const BallTest& test, FroxelPairs& pairs) {
+                 size_t count, const BoundsConstants& c, const BallTest& test, const DepthReach* reaches,
+                 FroxelPairs& pairs) {
   const FroxelGrid& grid = c.grid;
   const bool orthographic = c.view.orthographic != 0;
   size_t n = 0;
@@ -106,10 +113,19 @@ void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint
     for (uint32_t slice = 0; slice < box.slices; ++slice)
       for (uint32_t row = 0; row < box.rows; ++row)
         for (uint32_t column = 0; column < box.columns; ++column) {
-          if (has_corners(box) &&
-              !ball_reaches(test, orthographic, visible.x[i], visible.y[i], visible.z[i], visible.radius[i],
-                            column0 + column, row0 + row, slice0 + slice))
-            continue;
+          DepthReach reach = reaches ? reaches[box.light] : DepthReach{};
+          if (has_corners(box)) {
+            const BallInFroxel ball =
+                ball_in_froxel(test, orthographic, visible.x[i], visible.y[i], visible.z[i],
+                               visible.radius[i], column0 + column, row0 + row, slice0 + slice);
+            if (!ball.reached) continue;
+            reach = {std::min(ball.between.minus_low, reach.minus_low),
+                     std::min(ball.between.high, reach.high)};
+          }
+          if (reaches) {
+            pairs.minus_low[n] = reach.minus_low;
+            pairs.high[n] = reach.high;
+          }
           pairs.cell[n] = box.first + grid.cell(column, row, slice);
           pairs.light[n++] = box.light;
         }

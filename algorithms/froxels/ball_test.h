@@ -7,6 +7,10 @@
 // depths is looked for by a step of Newton's. Whatever it finds, g(a) + g'(a) (q - a) + (q - a)^2 lies
 // below g everywhere, and only where its smallest value exceeds the squared radius the froxel is left out: no
 // light is lost by a step that went astray.
+//
+// The same bound tells between which depths the ball can be met in the tile at all: where it does not exceed
+// the squared radius. Seen through a tile at its rim a ball is a short chord, so a tree's nodes become
+// tighter than with the depths of whole balls.
 #pragma once
 
 #include "algorithms/froxels/binning.h"
@@ -33,21 +37,33 @@ struct BallTest {
   void build(const BoundsConstants& constants);
 };
 
+// What is added to the square under the root of a chord, relative to what it is the difference of: many times
+// what rounding takes. Depths are then widened like those of whole balls.
+inline constexpr float chord_slack = 1e-6f;
+
+// A ball, seen through the tile of a froxel.
+struct BallInFroxel {
+  bool reached;        // whether it may reach the froxel; true where it does
+  DepthReach between;  // depths (m) of all its points in the tile, those of other slices too
+};
+
 namespace scalar {
-// Whether the ball may reach a froxel; true where it does.
-bool ball_reaches(const BallTest& test, bool orthographic, float x, float y, float z, float radius,
-                  uint32_t column, uint32_t row, uint32_t slice);
+BallInFroxel ball_in_froxel(const BallTest& test, bool orthographic, float x, float y, float z, float radius,
+                            uint32_t column, uint32_t row, uint32_t slice);
 // See below.
 void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
-                 size_t count, const BoundsConstants& constants, const BallTest& test, FroxelPairs& pairs);
+                 size_t count, const BoundsConstants& constants, const BallTest& test,
+                 const DepthReach* reaches, FroxelPairs& pairs);
 }  // namespace scalar
 
 namespace simd {
 // Writes the pairs of those froxels that the balls reach. The boxes and their lights are those at
-// places[0..count), with padding behind them, or without places at [first, first + count).
+// places[0..count), with padding behind them, or without places at [first, first + count). With `reaches`,
+// the depths of whole lights by index, each pair gets those at which the ball is met in its tile and the
+// light is within them.
 void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
                  size_t count, const BoundsConstants& constants, const BallTest& test,
-                 const BoxOffsets& offsets, FroxelPairs& pairs);
+                 const BoxOffsets& offsets, const DepthReach* reaches, FroxelPairs& pairs);
 }  // namespace simd
 
 }  // namespace ml

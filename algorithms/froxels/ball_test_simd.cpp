@@ -44,8 +44,13 @@ HWY_INLINE VF clamped(VF value, VF low, VF high) {
   return hn::Min(hn::Max(value, low), high);
 }
 
-template <bool orthographic>
-HWY_INLINE MF reaches(const Ball& ball, const Edges& e) {
+struct InFroxels {
+  MF reached;
+  VF minus_low, high;  // m; computed only where they are asked for
+};
+
+template <bool orthographic, bool with_depths>
+HWY_INLINE InFroxels ball_in_froxels(const Ball& ball, const Edges& e) {
   const VF one = hn::Set(df, 1);
   VF depth = clamped(ball.z, e.near, e.far);
   Side across, up;
@@ -68,7 +73,16 @@ HWY_INLINE MF reaches(const Ball& ball, const Edges& e) {
   const VF half_slope = hn::Add(hn::Add(ahead, hn::Mul(across.edge, across.away)), hn::Mul(up.edge, up.away));
   const VF step = clamped(hn::Sub(hn::Zero(df), half_slope), hn::Sub(e.near, depth), hn::Sub(e.far, depth));
   const VF least = hn::Add(distance2, hn::Mul(step, hn::Add(hn::Add(half_slope, half_slope), step)));
-  return hn::Not(hn::Gt(least, ball.radius2));
+  InFroxels in{hn::Not(hn::Gt(least, ball.radius2)), hn::Zero(df), hn::Zero(df)};
+  if constexpr (with_depths) {
+    const VF squares = hn::Add(hn::Mul(half_slope, half_slope), ball.radius2);
+    const VF under = hn::Add(hn::Sub(squares, distance2), hn::Mul(squares, hn::Set(df, chord_slack)));
+    const VF half = hn::Sqrt(hn::Max(under, hn::Zero(df)));
+    const VF middle = hn::Sub(depth, half_slope);
+    in.minus_low = hn::Mul(hn::Sub(half, middle), hn::Set(df, 0.99999f));
+    in.high = hn::Mul(hn::Add(half, middle), hn::Set(df, 1.00001f));
+  }
+  return in;
 }
 
 // from[which], which < 4.
@@ -80,24 +94,36 @@ HWY_INLINE VF pick(const float* from, VU which) {
 #endif
 }
 
-template <bool orthographic>
+template <bool orthographic, bool with_depths>
 class Emitter {
  public:
-  Emitter(const BallTest& test, const BoxOffsets& offsets, const FroxelGrid& grid, FroxelPairs& pairs)
-      : test_(test), offsets_(offsets), grid_(grid), cell_(pairs.cell.data()), light_(pairs.light.data()) {}
+  Emitter(const BallTest& test, const BoxOffsets& offsets, const FroxelGrid& grid, const DepthReach* reaches,
+          FroxelPairs& pairs)
+      : test_(test),
+        offsets_(offsets),
+        grid_(grid),
+        reaches_(reaches),
+        cell_(pairs.cell.data()),
+        light_(pairs.light.data()),
+        minus_low_(pairs.minus_low.data()),
+        high_(pairs.high.data()) {}
 
   // All froxels of a box.
   HWY_INLINE void whole(const LightBox& box) {
+    const DepthReach reach = with_depths ? reaches_[box.light] : DepthReach{};
     for (uint32_t slice = 0; slice < box.slices; ++slice)
       for (uint32_t row = 0; row < box.rows; ++row) {
         VU run = hn::Iota(du, box.first + grid_.cell(0, row, slice));
         for (uint32_t column = 0; column < box.columns; column += lanes()) {
           hn::StoreU(run, du, cell_ + column);
           hn::StoreU(hn::Set(du, box.light), du, light_ + column);
+          if constexpr (with_depths) {
+            hn::StoreU(hn::Set(df, reach.minus_low), df, minus_low_ + column);
+            hn::StoreU(hn::Set(df, reach.high), df, high_ + column);
+          }
           run = hn::Add(run, hn::Set(du, lanes()));
         }
-        cell_ += box.columns;
-        light_ += box.columns;
+        advance(box.columns);
       }
   }
   // Those of a box of up to 4 x 4 x 4 that the ball reaches.
@@ -115,8 +141,8 @@ class Emitter {
           pick(&test_.column_low[at.column], column), pick(&test_.column_high[at.column], column),
           pick(&test_.row_low[at.row], row),          pick(&test_.row_high[at.row], row),
           pick(&test_.slice_low[at.slice], slice),    pick(&test_.slice_high[at.slice], slice)};
-      write(box, hn::Add(hn::Set(du, box.first), hn::LoadU(du, table + k)),
-            hn::And(reaches<orthographic>(ball, edges), hn::FirstN(df, total - k)));
+      write(box, hn::Add(hn::Set(du, box.first), hn::LoadU(du, table + k)), ball, edges,
+            hn::FirstN(df, total - k));
     }
   }
   HWY_INLINE void large(const LightBox& box, const Ball& ball) {
@@ -132,8 +158,7 @@ class Emitter {
         for (uint32_t column = 0; column < box.columns; column += lanes()) {
           edges.left = hn::LoadU(df, &test_.column_low[at.column + column]);
           edges.right = hn::LoadU(df, &test_.column_high[at.column + column]);
-          write(box, hn::Iota(du, first + column),
-                hn::And(reaches<orthographic>(ball, edges), hn::FirstN(df, box.columns - column)));
+          write(box, hn::Iota(du, first + column), ball, edges, hn::FirstN(df, box.columns - column));
         }
       }
   }
@@ -149,28 +174,43 @@ class Emitter {
     const uint32_t slice = row / grid_.rows;
     return {box.first - row * grid_.columns, row - slice * grid_.rows, slice};
   }
-  HWY_INLINE void write(const LightBox& box, VU cells, MF reached) {
-    const KeptLanes<Floats> kept(df, reached);
+  HWY_INLINE void write(const LightBox& box, VU cells, const Ball& ball, const Edges& edges, MF of_box) {
+    const InFroxels in = ball_in_froxels<orthographic, with_depths>(ball, edges);
+    const KeptLanes<Floats> kept(df, hn::And(in.reached, of_box));
     kept.store(cells, cell_);
     hn::StoreU(hn::Set(du, box.light), du, light_);
-    cell_ += kept.count();
-    light_ += kept.count();
+    if constexpr (with_depths) {
+      const DepthReach whole = reaches_[box.light];
+      kept.store(hn::Min(in.minus_low, hn::Set(df, whole.minus_low)), minus_low_);
+      kept.store(hn::Min(in.high, hn::Set(df, whole.high)), high_);
+    }
+    advance(kept.count());
+  }
+  HWY_INLINE void advance(size_t pairs) {
+    cell_ += pairs;
+    light_ += pairs;
+    if constexpr (with_depths) {
+      minus_low_ += pairs;
+      high_ += pairs;
+    }
   }
 
   const BallTest& test_;
   const BoxOffsets& offsets_;
   const FroxelGrid& grid_;
+  const DepthReach* reaches_;
   uint32_t *cell_, *light_;
+  float *minus_low_, *high_;
 };
 
-template <bool orthographic>
+template <bool orthographic, bool with_depths>
 void emit_all(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
               size_t count, const FroxelGrid& grid, const BallTest& test, const BoxOffsets& offsets,
-              FroxelPairs& pairs) {
+              const DepthReach* reaches, FroxelPairs& pairs) {
   // Places jump about in more memory than the nearest caches hold, and are known long before.
   constexpr size_t ahead = 24;
   constexpr uint32_t most = BoxOffsets::max_extent;
-  Emitter<orthographic> emitter(test, offsets, grid, pairs);
+  Emitter<orthographic, with_depths> emitter(test, offsets, grid, reaches, pairs);
   for (size_t k = 0; k < count; ++k) {
     if (places) {
       const size_t later = places[k + ahead];
@@ -179,6 +219,7 @@ void emit_all(const VisibleLights& visible, const LightBox* boxes, const uint32_
       hwy::Prefetch(&visible.y[later]);
       hwy::Prefetch(&visible.z[later]);
       hwy::Prefetch(&visible.radius[later]);
+      if constexpr (with_depths) hwy::Prefetch(&reaches[boxes[places[k + ahead / 2]].light]);
     }
     const size_t i = places ? places[k] : first + k;
     const LightBox& box = boxes[i];
@@ -199,11 +240,10 @@ void emit_all(const VisibleLights& visible, const LightBox* boxes, const uint32_
 
 void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
                  size_t count, const BoundsConstants& c, const BallTest& test, const BoxOffsets& offsets,
-                 FroxelPairs& pairs) {
-  if (c.view.orthographic)
-    emit_all<true>(visible, boxes, places, first, count, c.grid, test, offsets, pairs);
-  else
-    emit_all<false>(visible, boxes, places, first, count, c.grid, test, offsets, pairs);
+                 const DepthReach* reaches, FroxelPairs& pairs) {
+  const auto emit = c.view.orthographic ? (reaches ? emit_all<true, true> : emit_all<true, false>)
+                                        : (reaches ? emit_all<false, true> : emit_all<false, false>);
+  emit(visible, boxes, places, first, count, c.grid, test, offsets, reaches, pairs);
 }
 
 }  // namespace ml::simd::HWY_NAMESPACE
@@ -216,8 +256,9 @@ HWY_EXPORT(emit_tested);
 
 void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
                  size_t count, const BoundsConstants& constants, const BallTest& test,
-                 const BoxOffsets& offsets, FroxelPairs& pairs) {
-  HWY_DYNAMIC_DISPATCH(emit_tested)(visible, boxes, places, first, count, constants, test, offsets, pairs);
+                 const BoxOffsets& offsets, const DepthReach* reaches, FroxelPairs& pairs) {
+  HWY_DYNAMIC_DISPATCH(emit_tested)
+  (visible, boxes, places, first, count, constants, test, offsets, reaches, pairs);
 }
 
 }  // namespace ml::simd

@@ -69,6 +69,8 @@ void reserve_padded(std::vector<Element>& elements, size_t count) {
 // (froxel, light) pairs in the order of lights.
 struct FroxelPairs {
   std::vector<uint32_t> cell, light;
+  // Where they were asked for: the depths that the light reaches in the froxel's tile, as DepthReach (m).
+  std::vector<float> minus_low, high;
   size_t count = 0;
 };
 
@@ -118,6 +120,6 @@ void emit(const LightBox* boxes, const uint32_t* places, size_t count, const Fro
 // whole run.
 uint64_t count_pairs(const LightBox* boxes, const uint32_t* places, size_t count);
 // Makes room for `count` pairs and the vector code's padding.
-void reserve_pairs(FroxelPairs& pairs, size_t count);
+void reserve_pairs(FroxelPairs& pairs, size_t count, bool with_reaches = false);
 
 }  // namespace ml

@@ -36,9 +36,12 @@ void VisibleLights::reserve(size_t lights) {
   reserve_padded(index, lights);
 }
 
-void reserve_pairs(FroxelPairs& pairs, size_t count) {
+void reserve_pairs(FroxelPairs& pairs, size_t count, bool with_reaches) {
   reserve_padded(pairs.cell, count);
   reserve_padded(pairs.light, count);
+  if (!with_reaches) return;
+  reserve_padded(pairs.minus_low, count);
+  reserve_padded(pairs.high, count);
 }
 
 uint64_t count_pairs(const LightBox* boxes, const uint32_t* places, size_t count) {

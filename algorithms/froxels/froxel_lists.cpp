@@ -83,10 +83,10 @@ void FroxelLists::emit(size_t p, const FroxelSettings& settings, const BoundsCon
   // Narrowing leaves out about a tenth; demand far beyond the limit is refused before memory is taken for
   // it.
   if (pairs > 4 * max_entries) too_many(pairs, max_entries);
-  reserve_pairs(part.pairs, pairs);
+  reserve_pairs(part.pairs, pairs, chords_);
   if (settings.ball_test)
     simd::emit_tested(visible_, boxes_.data(), places, first, count, constants, ball_test_, box_offsets_,
-                      part.pairs);
+                      chords_ ? reaches_.data() : nullptr, part.pairs);
   else if (settings.refinement)
     emit_refined(visible_, boxes_.data(), places, first, count, constants, planes_, part.pairs);
   else
@@ -142,24 +142,43 @@ void FroxelLists::scatter(Threads& threads) {
     longest_ = std::max(longest_, running - offsets_[cell]);
   }
   offsets_[grid_.cells()] = running;
+  if (chords_) reserve_padded(entry_reaches_, entries_);
   threads.for_each(parts, [&](size_t p) {
-    const FroxelPairs& pairs = parts_[p].pairs;
-    uint32_t* next = parts_[p].next.data();
-    if (entries_ < few_entries) {
-      for (size_t i = 0; i < pairs.count; ++i) list_[next[pairs.cell[i]]++] = pairs.light[i];
-      return;
-    }
-    // Lights in the order of depth fill the lists nearly from front to back: what they will come to in a
-    // slice or two is asked for, a cache line at a time.
-    constexpr size_t line = 16;
-    size_t ahead = 2 * entries_ / grid_.slices;
-    for (size_t before = 0; before < p; ++before) ahead += parts_[before].pairs.count;
-    for (size_t begin = 0; begin < pairs.count; begin += line) {
-      __builtin_prefetch(&list_[std::min(begin + ahead, entries_)], 1);
-      const size_t end = std::min(begin + line, pairs.count);
-      for (size_t i = begin; i < end; ++i) list_[next[pairs.cell[i]]++] = pairs.light[i];
-    }
+    if (chords_)
+      scatter_part<true>(p);
+    else
+      scatter_part<false>(p);
   });
+}
+
+template <bool with_reaches>
+void FroxelLists::scatter_part(size_t part) {
+  const FroxelPairs& pairs = parts_[part].pairs;
+  uint32_t* next = parts_[part].next.data();
+  const auto scatter = [&](size_t i) {
+    const uint32_t place = next[pairs.cell[i]]++;
+    list_[place] = pairs.light[i];
+    if constexpr (with_reaches) entry_reaches_[place] = {pairs.minus_low[i], pairs.high[i]};
+  };
+  if (entries_ < few_entries) {
+    for (size_t i = 0; i < pairs.count; ++i) scatter(i);
+    return;
+  }
+  // Lights in the order of depth fill the lists nearly from front to back: what they will come to in a
+  // slice or two is asked for, a cache line at a time.
+  constexpr size_t line = 16;
+  size_t ahead = 2 * entries_ / grid_.slices;
+  for (size_t before = 0; before < part; ++before) ahead += parts_[before].pairs.count;
+  for (size_t begin = 0; begin < pairs.count; begin += line) {
+    const size_t asked = std::min(begin + ahead, entries_);
+    __builtin_prefetch(&list_[asked], 1);
+    if constexpr (with_reaches) {
+      __builtin_prefetch(&entry_reaches_[asked], 1);
+      __builtin_prefetch(&entry_reaches_[asked + line / 2], 1);
+    }
+    const size_t end = std::min(begin + line, pairs.count);
+    for (size_t i = begin; i < end; ++i) scatter(i);
+  }
 }
 
 void FroxelLists::build(const FrameInput& frame, const FroxelSettings& settings, uint64_t max_entries,
@@ -167,6 +186,7 @@ void FroxelLists::build(const FrameInput& frame, const FroxelSettings& settings,
   grid_ = FroxelGrid::make(frame.view, settings.tile, settings.slices, settings.zmin, settings.zmax);
   const BoundsConstants constants(frame.view, grid_);
   const bool by_depth = settings.order == FroxelSettings::Order::depth;
+  chords_ = settings.chords && settings.ball_test && by_depth;
   {
     auto span = spans.span("cull");
     cull(frame, by_depth, constants);

@@ -25,6 +25,9 @@ struct FroxelSettings {
   float zmax = 0;           // m, 0: the view's far
   bool refinement = false;  // refinement.h; without effect beside the ball test, which leaves out more
   bool ball_test = false;   // ball_test.h
+  // With the ball test and order by depth: of each pair of froxel and light the depths at which the ball is
+  // met in the froxel's tile, beside those of whole lights.
+  bool chords = false;
   Order order = Order::index;
 };
 
@@ -60,6 +63,10 @@ class FroxelLists {
 
   // Order by depth only: the depths (m) that each light in a list reaches, by light index.
   std::span<const DepthReach> reach_of_light() const { return reaches_; }
+  // With chords only, else empty: the same of each of the entries, within its froxel's tile. Padded.
+  std::span<const DepthReach> reach_of_entry() const {
+    return std::span(entry_reaches_).first(chords_ ? entries_ : 0);
+  }
 
  private:
   // A run of lights, worked on by one thread at a time: first one of the frame's lights, then one of the
@@ -77,6 +84,8 @@ class FroxelLists {
              uint32_t slot);
   // Counting sort of all pairs into the lists.
   void scatter(Threads& threads);
+  template <bool with_reaches>
+  void scatter_part(size_t part);
   void build(const FrameInput& frame, const FroxelSettings& settings, uint64_t max_entries,
              UploadMemory* memory, uint32_t slot, Spans& spans);
   // Takes room for the lists' entries.
@@ -92,7 +101,7 @@ class FroxelLists {
   std::vector<PlaceRun> runs_;
   std::vector<Part> parts_;
   VisibleLights visible_;
-  std::vector<DepthReach> reaches_;
+  std::vector<DepthReach> reaches_, entry_reaches_;
   DepthOrder order_;
   SweepMemory sweep_memory_;
   std::vector<LightBox> boxes_;  // by place in visible_
@@ -101,7 +110,7 @@ class FroxelLists {
   size_t entries_ = 0;
   uint32_t longest_ = 0;
   uint64_t in_frustum_ = 0;
-  bool swept_ = false;
+  bool swept_ = false, chords_ = false;
 };
 
 }  // namespace ml

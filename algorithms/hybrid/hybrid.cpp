@@ -10,6 +10,12 @@
 namespace ml {
 namespace {
 
+FroxelSettings froxels(const Parameters& p) {
+  FroxelSettings settings = froxel_settings(p);
+  settings.chords = with_chords(p);
+  return settings;
+}
+
 ForestSettings forest_settings(const Parameters& p) {
   ForestSettings settings = tree_settings(p);
   settings.threshold = static_cast<float>(p.real("threshold"));
@@ -21,7 +27,7 @@ ForestSettings forest_settings(const Parameters& p) {
 class Hybrid final : public TreeAlgorithm {
  public:
   explicit Hybrid(const Parameters& p)
-      : TreeAlgorithm("hybrid", froxel_settings(p), forest_settings(p), walk_together(p)),
+      : TreeAlgorithm("hybrid", froxels(p), forest_settings(p), walk_together(p)),
         list_case_(p.boolean("list_case")),
         shared_tree_(p.boolean("shared_tree")) {}
   ShadeShaders shade_shaders() const override {
@@ -58,6 +64,7 @@ AlgorithmEntry hybrid_entry() {
   entry.check = [](const Parameters& p, uint32_t width, uint32_t height) -> std::string {
     if (walk_together(p) && (p.boolean("list_case") || p.boolean("shared_tree")))
       return "list_case and shared_tree are ways of walking alone; set walk to pixel";
+    if (std::string wrong = tree_check(p); !wrong.empty()) return wrong;
     return froxel_check(p, width, height);
   };
   entry.create = [](const Parameters& parameters) { return std::make_unique<Hybrid>(parameters); };

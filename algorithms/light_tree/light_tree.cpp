@@ -17,6 +17,7 @@ FroxelSettings tiles(const Parameters& p) {
   settings.tile = static_cast<uint32_t>(p.integer("tile"));
   settings.slices = 1;
   settings.ball_test = p.boolean("ball_test");
+  settings.chords = with_chords(p);
   return settings;
 }
 
@@ -43,6 +44,7 @@ AlgorithmEntry light_tree_entry() {
                  {ParameterInfo::integer("tile", 24, 4, 1024, "side of a screen tile in pixels"),
                   ball_test_parameter()});
   entry.parameters.push_back(walk_parameter());
+  entry.check = [](const Parameters& p, uint32_t, uint32_t) { return tree_check(p); };
   entry.create = [](const Parameters& parameters) { return std::make_unique<LightTree>(parameters); };
   return entry;
 }

@@ -252,6 +252,7 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
   const uint32_t* offsets = lists.offsets().data();
   const std::span<const uint32_t> entries = lists.entries();
   const DepthReach* reach_of_light = lists.reach_of_light().data();
+  const std::span<const DepthReach> reach_of_entry = lists.reach_of_entry();
   const uint32_t short_list = settings.short_list();
   reserve_padded(chunk.bounds, lists.longest() / settings.lights_per_leaf + 2);
   reserve_padded(chunk.node_tiles, chunk.end_cell - chunk.first_cell);
@@ -271,9 +272,14 @@ void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
     const FroxelGrid::DepthRange extent = cell_depths[row_cell / tiles];
     const uint32_t row_first = offsets[row_cell];
     const size_t row_lights = offsets[row_end] - row_first;
-    reserve_padded(chunk.reaches, row_lights);
-    collect(entries.subspan(row_first), row_lights, reach_of_light, chunk.reaches.data());
-    const DepthReach* reaches = chunk.reaches.data();
+    const DepthReach* reaches = nullptr;
+    if (reach_of_entry.empty()) {
+      reserve_padded(chunk.reaches, row_lights);
+      collect(entries.subspan(row_first), row_lights, reach_of_light, chunk.reaches.data());
+      reaches = chunk.reaches.data();
+    } else {
+      reaches = reach_of_entry.data() + row_first;
+    }
     for (uint32_t cell = row_cell; cell < row_end; ++cell) {
       const uint32_t first = offsets[cell], lights = offsets[cell + 1] - first;
       if (lights <= short_list && !(settings.list_nodes && lights > 0)) continue;

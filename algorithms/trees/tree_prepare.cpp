@@ -88,7 +88,20 @@ std::vector<ParameterInfo> tree_parameters() {
       ParameterInfo::choice("lists", "cell", {"cell", "node"},
                             "a list's place stands in its cell, or in a tree of one node (section 3.4)"),
       ParameterInfo::boolean("trim_padding", true, "leave out the nodes behind a tree's last light"),
+      ParameterInfo::choice("node_depths", "ball", {"ball", "chord"},
+                            "nodes hold the depths of whole lights, or those at which balls are met in the "
+                            "cell's tile (needs ball_test)"),
   };
+}
+
+std::string tree_check(const Parameters& parameters) {
+  if (with_chords(parameters) && !parameters.boolean("ball_test"))
+    return "node_depths chord needs ball_test true";
+  return "";
+}
+
+bool with_chords(const Parameters& parameters) {
+  return parameters.choice("node_depths") == "chord";
 }
 
 ForestSettings tree_settings(const Parameters& parameters) {

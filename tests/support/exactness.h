@@ -26,7 +26,7 @@ struct GridSettings {
   int64_t tile = 24, slices = 16;
   double zmin = 5, zmax = 0;
   bool refinement = false;
-  bool ball_test = false;
+  bool ball_test = false;  // trees then hold chords
   bool duplicated = false;
 };
 

@@ -58,7 +58,8 @@ double distance_from(const Froxel& f, bool orthographic, glm::dvec3 at) {
 }
 
 TEST(BallTest, LeavesOutWhatTheBallMissesAndNothingElse) {
-  uint64_t missed = 0, in_vain = 0;
+  uint64_t missed = 0, in_vain = 0, met = 0, balls = 0;
+  double chords = 0;  // lengths, as parts of the balls' diameters
   for (uint32_t seed = 0; seed < 150; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -90,16 +91,36 @@ TEST(BallTest, LeavesOutWhatTheBallMissesAndNothingElse) {
         const double distance =
             distance_from(froxel_of(constants, slices, column, row, slice), orthographic, at);
         if (std::isinf(distance)) continue;
-        const bool reached = scalar::ball_reaches(test, orthographic, visible.x[i], visible.y[i],
-                                                  visible.z[i], visible.radius[i], column, row, slice);
+        const auto [reached, between] =
+            scalar::ball_in_froxel(test, orthographic, visible.x[i], visible.y[i], visible.z[i],
+                                   visible.radius[i], column, row, slice);
         ASSERT_TRUE(reached || distance > radius)
             << "light " << visible.index[i] << ", froxel " << column << " " << row << " " << slice;
         const bool clearly = distance > radius * 1.01 + 1e-3 * glm::length(at);
         missed += clearly;
         in_vain += clearly && reached;
+        // The ball's depths in the tile, of which the froxel's are a part.
+        const Froxel froxel = froxel_of(constants, slices, column, row, slice);
+        for (int k = 0; k < 8; ++k) {
+          const double depth = at.z + radius * random.uniform(-1, 1);
+          if (depth < static_cast<double>(constants.view.near) ||
+              distance_at(froxel, orthographic, at, depth) > radius)
+            continue;
+          ++met;
+          ASSERT_TRUE(-static_cast<double>(between.minus_low) <= depth &&
+                      depth <= static_cast<double>(between.high))
+              << depth << " is not between " << -between.minus_low << " and " << between.high;
+        }
+        if (reached) {
+          chords += static_cast<double>(between.minus_low + between.high) / (2 * radius);
+          ++balls;
+        }
       }
     }
   }
+  EXPECT_GT(met, 100000u);
+  RecordProperty("mean_chord", std::to_string(chords / static_cast<double>(balls)));
+  EXPECT_LT(chords, 0.95 * static_cast<double>(balls));
   EXPECT_GT(missed, 10000u);
   EXPECT_LT(in_vain * 200, missed) << "of " << missed;
 }

@@ -195,19 +195,31 @@ TEST(VectorTargets, BallTestGivesTheScalarPairs) {
       BallTest test;
       test.build(constants);
       FroxelPairs pairs, expected;
-      reserve_pairs(pairs, sum);
-      reserve_pairs(expected, sum);
+      reserve_pairs(pairs, sum, true);
+      reserve_pairs(expected, sum, true);
+      std::vector<DepthReach> reaches(given.frame().lights.count());
+      for (size_t i = 0; i < visible.count; ++i) {
+        const DepthInterval depths = scalar::depth_interval(visible.z[i], visible.radius[i]);
+        reaches[visible.index[i]] = {-depths.low, depths.high};
+      }
       std::vector<uint32_t> places;
       reserve_padded(places, visible.count);
       for (size_t i = 0; i < visible.count; ++i) places[i] = static_cast<uint32_t>(visible.count - 1 - i);
       for (bool ordered : {false, true}) {
         const uint32_t* order = ordered ? places.data() : nullptr;
-        simd::emit_tested(visible, boxes.data(), order, 0, visible.count, constants, test, offsets, pairs);
-        scalar::emit_tested(visible, boxes.data(), order, 0, visible.count, constants, test, expected);
-        const auto used = [&](const std::vector<uint32_t>& all) { return std::span(all).first(pairs.count); };
+        const DepthReach* depths = ordered ? reaches.data() : nullptr;
+        simd::emit_tested(visible, boxes.data(), order, 0, visible.count, constants, test, offsets, depths,
+                          pairs);
+        scalar::emit_tested(visible, boxes.data(), order, 0, visible.count, constants, test, depths,
+                            expected);
+        const auto used = [&](const auto& all) { return std::span(all).first(pairs.count); };
         ASSERT_EQ(pairs.count, expected.count);
         ASSERT_TRUE(std::ranges::equal(used(pairs.cell), used(expected.cell)));
         ASSERT_TRUE(std::ranges::equal(used(pairs.light), used(expected.light)));
+        if (depths) {
+          ASSERT_TRUE(std::ranges::equal(used(pairs.minus_low), used(expected.minus_low)));
+          ASSERT_TRUE(std::ranges::equal(used(pairs.high), used(expected.high)));
+        }
         left_out += sum - pairs.count;
       }
     }
