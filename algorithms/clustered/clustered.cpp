@@ -27,19 +27,18 @@ class Clustered final : public Algorithm {
         together_(walk_together(p)) {}
 
   void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) override {
-    const size_t entry_bytes = duplicated_ ? sizeof(gpu_data::LightCore) : sizeof(uint32_t);
     if (duplicated_)
-      lists_.build(frame, settings_, memory.limit() / entry_bytes, spans);
+      lists_.build(frame, settings_, memory.limit() / sizeof(gpu_data::LightCore), spans);
     else
       lists_.build(frame, settings_, memory, indices_slot, spans);
     auto span = spans.span("upload");
-    const gpu_data::FroxelGridData header = lists_.grid().data();
+    const gpu_data::FroxelGridData header = lists_.grid_data();
     copy(std::span(&header, 1), memory.map(grid_slot, sizeof header));
     copy(lists_.offsets(), memory.map(offsets_slot, lists_.offsets().size_bytes()));
     std::span<const uint32_t> indices = lists_.entries();
     if (duplicated_) {
       auto* lights = reinterpret_cast<gpu_data::LightCore*>(
-          memory.map(duplicates_slot, indices.size() * entry_bytes).data());
+          memory.map(duplicates_slot, indices.size() * sizeof(gpu_data::LightCore)).data());
       for (size_t i = 0; i < indices.size(); ++i) lights[i] = frame.lights.core[indices[i]];
       memory.map(indices_slot, 0);
     } else {
@@ -47,7 +46,9 @@ class Clustered final : public Algorithm {
       memory.map(duplicates_slot, 0);
     }
     counters_.in_frustum = lists_.lights_in_frustum();
-    counters_.list_bytes = lists_.offsets().size_bytes() + indices.size() * entry_bytes;
+    counters_.list_bytes =
+        lists_.offsets().size_bytes() +
+        (duplicated_ ? indices.size() * sizeof(gpu_data::LightCore) : lists_.entry_bytes());
   }
 
   PrepareCounters counters() const override { return counters_; }
@@ -57,7 +58,7 @@ class Clustered final : public Algorithm {
   ShadeShaders shade_shaders() const override {
     return {clustered_shade, clustered_shade_counting, clustered_forward, clustered_forward_counting};
   }
-  std::vector<uint32_t> shade_constants() const override { return {duplicated_}; }
+  std::vector<uint32_t> shade_constants() const override { return {duplicated_, settings_.narrow}; }
 
  private:
   bool duplicated_;
@@ -80,7 +81,11 @@ AlgorithmEntry clustered_entry() {
       "light_data", "indexed", {"indexed", "duplicated"},
       "lists hold light indices, or copies of the light data (Tiled Light Trees, fig. 5)"));
   entry.parameters.push_back(walk_parameter());
-  entry.check = froxel_check;
+  entry.check = [](const Parameters& p, uint32_t width, uint32_t height) -> std::string {
+    if (p.choice("light_data") == "duplicated" && p.choice("index_bits") == "16")
+      return "index_bits 16 needs light_data indexed: duplicated lists hold no indices";
+    return froxel_check(p, width, height);
+  };
   entry.create = [](const Parameters& parameters) { return std::make_unique<Clustered>(parameters); };
   return entry;
 }

@@ -1,7 +1,8 @@
 // The list of the pixel's froxel.
+layout(constant_id = 16) const bool DUPLICATED = false;
+layout(constant_id = 17) const bool NARROW_INDICES = false;
 #include "algorithms/froxels/froxel_cell.glsl"
 
-layout(constant_id = 16) const bool DUPLICATED = false;
 layout(scalar, binding = 17) readonly buffer Offsets { uint froxel_offsets[]; };
 layout(scalar, binding = 18) readonly buffer Indices { uint froxel_indices[]; };
 layout(scalar, binding = 19) readonly buffer Duplicates { LightCore froxel_lights[]; };
@@ -21,11 +22,13 @@ LightCursor cell_begin(uint froxel, float depth, bool counted) {
 
 LightCursor light_begin(SurfacePoint point) { return cell_begin(light_cell(point), point.depth, true); }
 
+uint run_light(uint place) { return DUPLICATED ? place : index_of(froxel_indices[index_word(place)], place); }
+
 // `light` is the light's index, or with duplicated data the place in the list itself.
 bool light_next(inout LightCursor cursor, out uint light, out float weight) {
   weight = 1.0;
   if (cursor.next >= cursor.end) return false;
-  light = DUPLICATED ? cursor.next : froxel_indices[cursor.next];
+  light = run_light(cursor.next);
   cursor.next++;
   return true;
 }
@@ -41,7 +44,6 @@ bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint
   return here;
 }
 
-uint run_light(uint place) { return DUPLICATED ? place : froxel_indices[place]; }
 #define CURSOR_RUNS
 
 LightCore cursor_light(uint light) {

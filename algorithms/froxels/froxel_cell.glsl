@@ -1,10 +1,17 @@
-// Where a surface point lies in the froxel grid.
+// Where a surface point lies in the froxel grid, and light indices of its lists.
 #ifndef ML_FROXEL_CELL_GLSL
 #define ML_FROXEL_CELL_GLSL
 #include "algorithms/froxels/grid_data.h"
 
 layout(scalar, binding = 16) readonly buffer Grid { FroxelGridData grid_data; };
 FroxelGridData grid = grid_data;  // read before all branches, as the view is (shaders/surface.glsl)
+
+// Where a list's light index stands among words, and what the word says. Indices of 16 bits are asked for by NARROW_INDICES, which comes before
+// this; frames of more lights than those can tell apart have whole words.
+uint index_word(uint place) { return NARROW_INDICES && grid.narrow != 0u ? place >> 1 : place; }
+uint index_of(uint word, uint place) {
+  return NARROW_INDICES && grid.narrow != 0u ? word >> ((place & 1u) << 4) & 0xffffu : word;
+}
 
 uint tile_of_point(SurfacePoint point) {
   return tile_of_pixel(point.pixel.y, grid.inverse_tile) * grid.columns + tile_of_pixel(point.pixel.x, grid.inverse_tile);

@@ -26,7 +26,7 @@ struct FroxelGrid {
   }
 
   gpu_data::FroxelGridData data() const {
-    return {mapping, 1.0f / static_cast<float>(tile), columns, tiles()};
+    return {mapping, 1.0f / static_cast<float>(tile), columns, tiles(), 0};
   }
 
   // `tile`, `slices` >= 1; `zmin` > 0; `zmax` 0 takes the view's far. A zmax at or below zmin is raised to

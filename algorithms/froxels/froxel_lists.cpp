@@ -111,8 +111,21 @@ void FroxelLists::begin_list(uint64_t entries, UploadMemory* memory, uint32_t sl
 
 void FroxelLists::upload_entries(UploadMemory& memory, uint32_t slot) const {
   if (list_.data() != own_list_.data()) return;
-  const std::span<std::byte> mapped = memory.map(slot, entries().size_bytes());
-  if (!entries().empty()) std::memcpy(mapped.data(), entries().data(), entries().size_bytes());
+  // Whole words, of which the last may be half used.
+  const std::span<std::byte> mapped = memory.map(slot, (entry_bytes() + 3) / 4 * 4);
+  if (narrow_) {
+    auto* to = reinterpret_cast<uint16_t*>(mapped.data());
+    for (const uint32_t light : entries()) *to++ = static_cast<uint16_t>(light);
+    if (entries_ % 2 != 0) *to = 0;
+  } else if (!entries().empty()) {
+    std::memcpy(mapped.data(), entries().data(), entries().size_bytes());
+  }
+}
+
+gpu_data::FroxelGridData FroxelLists::grid_data() const {
+  gpu_data::FroxelGridData data = grid_.data();
+  data.narrow = narrow_;
+  return data;
 }
 
 bool FroxelLists::sweep(const FrameInput& frame, bool by_depth, uint64_t max_entries, UploadMemory* memory,
@@ -186,6 +199,7 @@ void FroxelLists::build(const FrameInput& frame, const FroxelSettings& settings,
   grid_ = FroxelGrid::make(frame.view, settings.tile, settings.slices, settings.zmin, settings.zmax);
   const BoundsConstants constants(frame.view, grid_);
   const bool by_depth = settings.order == FroxelSettings::Order::depth;
+  narrow_ = narrows(frame, settings);
   chords_ = settings.chords && settings.ball_test && by_depth;
   {
     auto span = spans.span("cull");

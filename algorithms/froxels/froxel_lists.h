@@ -28,6 +28,8 @@ struct FroxelSettings {
   // With the ball test and order by depth: of each pair of froxel and light the depths at which the ball is
   // met in the froxel's tile, beside those of whole lights.
   bool chords = false;
+  // Light indices of 16 bits where a frame has so few lights that those tell them apart.
+  bool narrow = false;
   Order order = Order::index;
 };
 
@@ -45,15 +47,21 @@ class FroxelLists {
   // upload_entries() sees to it that they are there.
   void build(const FrameInput& frame, const FroxelSettings& settings, UploadMemory& memory, uint32_t slot,
              Spans& spans) {
-    build(frame, settings, memory.limit() / sizeof(uint32_t), &memory, slot, spans);
+    const bool narrow = narrows(frame, settings);
+    build(frame, settings, memory.limit() / (narrow ? sizeof(uint16_t) : sizeof(uint32_t)),
+          narrow ? nullptr : &memory, slot, spans);
   }
   void upload_entries(UploadMemory& memory, uint32_t slot) const;
+  // The grid as the shaders that read the lists see it.
+  gpu_data::FroxelGridData grid_data() const;
 
   const FroxelGrid& grid() const { return grid_; }
   // Where each froxel's list begins in entries(), and one more: the end of the last.
   std::span<const uint32_t> offsets() const { return std::span(offsets_).first(grid_.cells() + size_t{1}); }
   // Light indices.
   std::span<const uint32_t> entries() const { return list_.first(entries_); }
+  // Bytes of the entries as they are uploaded.
+  uint64_t entry_bytes() const { return entries_ * (narrow_ ? sizeof(uint16_t) : sizeof(uint32_t)); }
   uint64_t lights_in_frustum() const { return in_frustum_; }
   // The most entries of one froxel.
   uint32_t longest() const { return longest_; }
@@ -90,6 +98,9 @@ class FroxelLists {
              UploadMemory* memory, uint32_t slot, Spans& spans);
   // Takes room for the lists' entries.
   void begin_list(uint64_t entries, UploadMemory* memory, uint32_t slot);
+  static bool narrows(const FrameInput& frame, const FroxelSettings& settings) {
+    return settings.narrow && frame.lights.count() <= size_t{1} << 16;
+  }
   [[noreturn]] void too_many(uint64_t entries, uint64_t limit) const;
 
   std::string owner_;
@@ -110,7 +121,7 @@ class FroxelLists {
   size_t entries_ = 0;
   uint32_t longest_ = 0;
   uint64_t in_frustum_ = 0;
-  bool swept_ = false, chords_ = false;
+  bool swept_ = false, chords_ = false, narrow_ = false;
 };
 
 }  // namespace ml

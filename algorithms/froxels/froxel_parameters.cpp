@@ -11,12 +11,23 @@ std::vector<ParameterInfo> froxel_parameters() {
                           "depth in metres at which the last slice ends; 0: the scene's far depth"),
       ParameterInfo::boolean("refinement", false, "narrow each row and slice of froxels to the light's ball"),
       ball_test_parameter(),
+      index_bits_parameter(),
   };
 }
 
 ParameterInfo ball_test_parameter() {
   return ParameterInfo::boolean(
-      "ball_test", false, "leave out cells that the light's ball misses inside its box, by an exact test");
+      "ball_test", true, "leave out cells that the light's ball misses inside its box, by an exact test");
+}
+
+ParameterInfo index_bits_parameter() {
+  return ParameterInfo::choice("index_bits", "32", {"32", "16"},
+                               "bits of a list's light indices; 16 only in frames of at most 65,536 lights");
+}
+
+void read_list_settings(const Parameters& parameters, FroxelSettings& settings) {
+  settings.ball_test = parameters.boolean("ball_test");
+  settings.narrow = parameters.choice("index_bits") == "16";
 }
 
 FroxelSettings froxel_settings(const Parameters& p) {
@@ -26,7 +37,7 @@ FroxelSettings froxel_settings(const Parameters& p) {
   settings.zmin = static_cast<float>(p.real("zmin"));
   settings.zmax = static_cast<float>(p.real("zmax"));
   settings.refinement = p.boolean("refinement");
-  settings.ball_test = p.boolean("ball_test");
+  read_list_settings(p, settings);
   return settings;
 }
 

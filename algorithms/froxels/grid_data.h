@@ -9,8 +9,9 @@ struct FroxelGridData {
   float inverse_tile;  // 1/px
   uint columns;        // tiles across the picture
   uint tiles;          // froxels of a slice
+  uint narrow;         // not 0: light indices of lists have 16 bits, two in a word
 };
-ML_SIZE(FroxelGridData, 24);
+ML_SIZE(FroxelGridData, 28);
 
 // The tile of a pixel along one axis. The same as an integer division up to 2^21 px, which processors do not
 // have for several numbers at once: the middle of a pixel is half a pixel or more away from an edge, and

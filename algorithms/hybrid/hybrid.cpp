@@ -29,14 +29,15 @@ class Hybrid final : public TreeAlgorithm {
   explicit Hybrid(const Parameters& p)
       : TreeAlgorithm("hybrid", froxels(p), forest_settings(p), walk_together(p)),
         list_case_(p.boolean("list_case")),
-        shared_tree_(p.boolean("shared_tree")) {}
+        shared_tree_(p.boolean("shared_tree")),
+        narrow_(froxels(p).narrow) {}
   ShadeShaders shade_shaders() const override {
     return {hybrid_shade, hybrid_shade_counting, hybrid_forward, hybrid_forward_counting};
   }
-  std::vector<uint32_t> shade_constants() const override { return {list_case_, shared_tree_}; }
+  std::vector<uint32_t> shade_constants() const override { return {list_case_, shared_tree_, narrow_}; }
 
  private:
-  bool list_case_, shared_tree_;
+  bool list_case_, shared_tree_, narrow_;
 };
 
 }  // namespace
@@ -64,7 +65,6 @@ AlgorithmEntry hybrid_entry() {
   entry.check = [](const Parameters& p, uint32_t width, uint32_t height) -> std::string {
     if (walk_together(p) && (p.boolean("list_case") || p.boolean("shared_tree")))
       return "list_case and shared_tree are ways of walking alone; set walk to pixel";
-    if (std::string wrong = tree_check(p); !wrong.empty()) return wrong;
     return froxel_check(p, width, height);
   };
   entry.create = [](const Parameters& parameters) { return std::make_unique<Hybrid>(parameters); };

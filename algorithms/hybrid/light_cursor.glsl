@@ -5,7 +5,8 @@
 //   case 2  anything else
 layout(constant_id = 16) const bool LIST_CASE = false;
 layout(constant_id = 17) const bool SHARED_TREE = false;
-layout(constant_id = 18) const bool HAS_TREES = true;
+layout(constant_id = 18) const bool NARROW_INDICES = false;
+layout(constant_id = 19) const bool HAS_TREES = true;
 #include "algorithms/trees/tree_walk.glsl"
 
 #ifndef FORWARD  // fragments have no workgroup
@@ -32,7 +33,7 @@ bool light_next_in_list(inout LightCursor cursor, out uint light, out float weig
   weight = 1.0;
   light = 0u;
   if (cursor.next == cursor.last) return false;
-  light = tree_lights[cursor.next++];
+  light = run_light(cursor.next++);
   return true;
 }
 
@@ -46,7 +47,7 @@ bool light_next_shared(inout LightCursor cursor, out uint light, out float weigh
     tree_step(cursor, shared_nodes[cursor.node]);
     if (cursor.next == cursor.last) return true;
   }
-  light = tree_lights[cursor.next++];
+  light = run_light(cursor.next++);
   return true;
 }
 

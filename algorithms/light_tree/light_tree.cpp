@@ -16,7 +16,7 @@ FroxelSettings tiles(const Parameters& p) {
   FroxelSettings settings;
   settings.tile = static_cast<uint32_t>(p.integer("tile"));
   settings.slices = 1;
-  settings.ball_test = p.boolean("ball_test");
+  read_list_settings(p, settings);
   settings.chords = with_chords(p);
   return settings;
 }
@@ -30,10 +30,14 @@ ForestSettings always_trees(const Parameters& p) {
 class LightTree final : public TreeAlgorithm {
  public:
   explicit LightTree(const Parameters& p)
-      : TreeAlgorithm("light_tree", tiles(p), always_trees(p), walk_together(p)) {}
+      : TreeAlgorithm("light_tree", tiles(p), always_trees(p), walk_together(p)), narrow_(tiles(p).narrow) {}
   ShadeShaders shade_shaders() const override {
     return {light_tree_shade, light_tree_shade_counting, light_tree_forward, light_tree_forward_counting};
   }
+  std::vector<uint32_t> shade_constants() const override { return {narrow_}; }
+
+ private:
+  bool narrow_;
 };
 
 }  // namespace
@@ -42,9 +46,8 @@ AlgorithmEntry light_tree_entry() {
   AlgorithmEntry entry =
       tree_entry("light_tree", "one tree over depth for each tile, built on the CPU",
                  {ParameterInfo::integer("tile", 24, 4, 1024, "side of a screen tile in pixels"),
-                  ball_test_parameter()});
+                  ball_test_parameter(), index_bits_parameter()});
   entry.parameters.push_back(walk_parameter());
-  entry.check = [](const Parameters& p, uint32_t, uint32_t) { return tree_check(p); };
   entry.create = [](const Parameters& parameters) { return std::make_unique<LightTree>(parameters); };
   return entry;
 }

@@ -53,7 +53,7 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
                     owner_, node_bytes, memory.limit()));
 
   auto span = spans.span("upload");
-  const gpu_data::FroxelGridData header = lists_.grid().data();
+  const gpu_data::FroxelGridData header = lists_.grid_data();
   std::memcpy(memory.map(grid_slot, sizeof header).data(), &header, sizeof header);
   const auto cells = forest_.cells();
   std::memcpy(memory.map(cells_slot, cells.size_bytes()).data(), cells.data(), cells.size_bytes());
@@ -61,7 +61,7 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
   lists_.upload_entries(memory, indices_slot);
 
   counters_.in_frustum = lists_.lights_in_frustum();
-  counters_.list_bytes = cells.size_bytes() + node_bytes + lists_.entries().size_bytes();
+  counters_.list_bytes = cells.size_bytes() + node_bytes + lists_.entry_bytes();
   counters_.list_cells = forest_.list_cells();
   counters_.tree_cells = forest_.tree_cells();
 }
@@ -88,16 +88,10 @@ std::vector<ParameterInfo> tree_parameters() {
       ParameterInfo::choice("lists", "cell", {"cell", "node"},
                             "a list's place stands in its cell, or in a tree of one node (section 3.4)"),
       ParameterInfo::boolean("trim_padding", true, "leave out the nodes behind a tree's last light"),
-      ParameterInfo::choice("node_depths", "ball", {"ball", "chord"},
-                            "nodes hold the depths of whole lights, or those at which balls are met in the "
-                            "cell's tile (needs ball_test)"),
+      ParameterInfo::choice("node_depths", "chord", {"chord", "ball"},
+                            "with ball_test nodes hold the depths at which balls are met in the cell's "
+                            "tile; or those of whole lights, as in the paper"),
   };
-}
-
-std::string tree_check(const Parameters& parameters) {
-  if (with_chords(parameters) && !parameters.boolean("ball_test"))
-    return "node_depths chord needs ball_test true";
-  return "";
 }
 
 bool with_chords(const Parameters& parameters) {

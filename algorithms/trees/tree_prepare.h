@@ -39,8 +39,7 @@ class TreePrepare {
 // The parameters that both have.
 std::vector<ParameterInfo> tree_parameters();
 ForestSettings tree_settings(const Parameters& parameters);
-// Whether nodes hold chords (FroxelSettings::chords), and what is wrong with the parameters together, or "".
+// Whether nodes hold chords (FroxelSettings::chords).
 bool with_chords(const Parameters& parameters);
-std::string tree_check(const Parameters& parameters);
 
 }  // namespace ml

@@ -1,6 +1,7 @@
 // The stackless walk through a tile's or froxel's tree (Tiled Light Trees, listing 3): strictly forwards, to the next
 // node where the pixel's depth is inside, over all that is below where it is not.
-// Before it comes the constant HAS_TREES: false where all cells are lists that stand in the cell, which need no walk.
+// Before it come the constants HAS_TREES: false where all cells are lists that stand in the cell, which need no walk, and NARROW_INDICES
+// (froxel_cell.glsl).
 #ifndef ML_TREE_WALK_GLSL
 #define ML_TREE_WALK_GLSL
 #include "algorithms/trees/tree_node.h"
@@ -12,6 +13,8 @@ layout(scalar, binding = 18) readonly buffer TreeNodes { TreeNode tree_nodes[]; 
 QUADS(TreeCellsQuads, 17);
 QUADS(TreeNodesQuads, 18);
 layout(scalar, binding = 19) readonly buffer Indices { uint tree_lights[]; };
+
+uint run_light(uint place) { return index_of(tree_lights[index_word(place)], place); }
 
 TreeCell tree_cell(uint cell) {
   if (!TEXEL_FETCH) return tree_cells[cell];
@@ -83,7 +86,7 @@ bool tree_next(inout LightCursor cursor, out uint light, out float weight) {
     tree_step(cursor, tree_node(cursor.node));
     if (cursor.next == cursor.last) return true;
   }
-  light = tree_lights[cursor.next++];
+  light = run_light(cursor.next++);
   return true;
 }
 
@@ -168,7 +171,6 @@ bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint
   return here && low <= cursor.depth && cursor.depth <= high;
 }
 
-uint run_light(uint place) { return tree_lights[place]; }
 #define CURSOR_RUNS
 
 #endif

@@ -20,7 +20,11 @@ TEST_F(HardCases, Case51_CountsAroundThoseOf8And16BitsInOneFroxel) {
     SCOPED_TRACE(testing::Message() << count << " lights");
     const std::vector<Light> lights = scattered(count, {-1, 1, -0.6}, {1, 2, 0.6}, 15, 20, 51, 0);
     const Seen seen = check.expect_trials(
-        above, lights, all_with({{.tile = 16, .slices = 1}, {.tile = 16, .slices = 1, .ball_test = true}}),
+        above, lights,
+        all_with({{.tile = 16, .slices = 1},
+                  {.tile = 16, .slices = 1, .ball_test = true},
+                  {.tile = 16, .slices = 1, .refinement = true},
+                  {.tile = 16, .slices = 1, .refinement = true}}),
         1);
     EXPECT_EQ(seen.truth.count, std::vector<uint32_t>(24, count));
   }

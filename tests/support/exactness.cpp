@@ -62,6 +62,7 @@ Trial trial_of(const std::string& algorithm, const GridSettings& grid, bool alon
       {"zmax", grid.zmax},
       {"refinement", grid.refinement},
       {"ball_test", grid.ball_test},
+      {"index_bits", std::string(grid.refinement && !grid.duplicated ? "16" : "32")},
       {"node_depths", std::string(grid.ball_test ? "chord" : "ball")},
       {"light_data", std::string(grid.duplicated ? "duplicated" : "indexed")},
       {"walk", std::string(alone ? "pixel" : "subgroup")},

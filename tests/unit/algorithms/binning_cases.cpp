@@ -46,6 +46,7 @@ FroxelSettings random_settings(Random& random) {
   settings.zmax = random.below(2) ? settings.zmin * log_uniform(random, 1.5f, 1000) : 0;
   settings.refinement = random.below(2) != 0;
   settings.ball_test = random.below(2) != 0;
+  settings.narrow = random.below(2) != 0;
   settings.chords = settings.ball_test && random.below(2) != 0;
   return settings;
 }

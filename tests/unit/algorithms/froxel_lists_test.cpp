@@ -69,8 +69,17 @@ TEST(FroxelLists, VectorCodeGivesTheReferencesBits) {
   EXPECT_LT(swept, 270u);
 }
 
+// Words, or with narrow indices half words, of which the last word may lack one.
+std::vector<std::byte> as_uploaded(std::span<const uint32_t> entries, bool narrow) {
+  if (!narrow) return {std::as_bytes(entries).begin(), std::as_bytes(entries).end()};
+  std::vector<uint16_t> half(entries.begin(), entries.end());
+  half.resize((half.size() + 1) / 2 * 2);
+  const auto bytes = std::as_bytes(std::span(half));
+  return {bytes.begin(), bytes.end()};
+}
+
 TEST(FroxelLists, AreTheSameWhereTheyAreBuiltInUploadMemory) {
-  uint32_t swept = 0;
+  uint32_t swept = 0, narrow = 0;
   for (uint32_t seed = 0; seed < 60; ++seed) {
     Random random(5000 + seed);
     Camera camera = random_camera(random);
@@ -87,14 +96,17 @@ TEST(FroxelLists, AreTheSameWhereTheyAreBuiltInUploadMemory) {
     staged.build(fixture.frame, settings, uncached, 0, spans);
     in_place.upload_entries(cached, 0);
     staged.upload_entries(uncached, 0);
-    const auto bytes = std::as_bytes(own.entries());
+    const std::vector<std::byte> bytes = as_uploaded(own.entries(), own.grid_data().narrow != 0);
+    ASSERT_EQ(own.grid_data().narrow != 0, settings.narrow && count <= 65536);
     ASSERT_TRUE(std::ranges::equal(cached.all(), bytes)) << "seed " << seed;
     ASSERT_TRUE(std::ranges::equal(uncached.all(), bytes)) << "seed " << seed;
     ASSERT_TRUE(std::ranges::equal(in_place.entries(), own.entries())) << "seed " << seed;
     swept += own.swept();
+    narrow += own.grid_data().narrow;
   }
   EXPECT_GT(swept, 5u);
   EXPECT_LT(swept, 55u);
+  EXPECT_GT(narrow, 10u);
 }
 
 TEST(FroxelLists, NarrowingOnlyTakesAway) {
