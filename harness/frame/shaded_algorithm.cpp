@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -117,10 +118,15 @@ ShadingLoop ShadedAlgorithm::loop_of(const DeviceFrame& frame, const FrameInput&
     const std::vector<uint32_t>& counts = frame.contributing().count;
     walk = {counts.empty() ? 0 : std::ranges::max(counts), 0};
   }
-  if (algorithm_->walks_ranges()) walk.lights = std::min<uint64_t>(walk.lights, max_lights_of_dispatch);
+  walk.lights = std::min<uint64_t>(walk.lights, range());
   const gpu::DeviceLimits& limits = device_.limits();
   return choose_shading_loop(walk, limits.subgroup_size, together, effects_.test_ahead,
                              limits.loop_iterations);
+}
+
+uint32_t ShadedAlgorithm::range() const {
+  if (!algorithm_->walks_ranges()) return std::numeric_limits<uint32_t>::max();
+  return lights_of_range(device_.limits().subgroup_size, device_.limits().loop_iterations);
 }
 
 std::span<std::byte> ShadedAlgorithm::map(uint32_t slot, size_t bytes) {
@@ -214,10 +220,9 @@ void ShadedAlgorithm::shade_blocks(gpu::Commands& commands, const Variant& varia
                                    const gpu::Bindings& bindings, const FrameInput& input, uint32_t begin,
                                    uint32_t end) {
   const auto lights = static_cast<uint32_t>(input.lights.count());
-  const uint32_t range = algorithm_->walks_ranges() ? max_lights_of_dispatch : std::max(lights, 1u);
   uint32_t first_light = 0;
   do {
-    const uint32_t end_light = first_light + std::min(range, lights - first_light);
+    const uint32_t end_light = first_light + std::min(range(), lights - first_light);
     // Every pixel is in one block, and every block in one dispatch.
     auto apart = commands.unordered();
     for (uint32_t first = begin; first < end; first += std::min(most_groups, end - first))

@@ -60,6 +60,8 @@ class ShadedAlgorithm final : private UploadMemory {
   // Made when first asked for: throws SystemError when the device refuses it.
   const gpu::ComputeProgram& program(const Variant& variant);
   const gpu::RasterProgram& forward_program(bool counting, bool long_walks);
+  // Lights that a dispatch looks at; more take several.
+  uint32_t range() const;
   ShadingLoop loop_of(const DeviceFrame& frame, const FrameInput& input, bool together) const;
   // Records the blocks [begin, end) of the list that is bound.
   void shade_blocks(gpu::Commands& commands, const Variant& variant, const gpu::Bindings& bindings,

@@ -53,6 +53,16 @@ uint64_t max_iterations(ShadingLoop loop, const LongestWalk& walk, uint32_t lane
   return loop.long_walks ? std::max(apart, cell + 1 + besides) : lanes * (cell + 1) + besides;
 }
 
+uint32_t lights_of_range(uint32_t lanes, uint64_t limit) {
+  if (limit == 0) return max_lights_of_dispatch;
+  uint32_t sure = 1, not_sure = max_lights_of_dispatch + 1;
+  while (not_sure - sure > 1) {
+    const uint32_t lights = sure + (not_sure - sure) / 2;
+    (max_iterations({false, false}, {lights, 0}, lanes, false) <= limit ? sure : not_sure) = lights;
+  }
+  return sure;
+}
+
 ShadingLoop choose_shading_loop(const LongestWalk& walk, uint32_t lanes, bool together, bool test_ahead,
                                 uint64_t limit) {
   for (ShadingLoop loop : {ShadingLoop{together, false}, ShadingLoop{together, true}})

@@ -32,8 +32,11 @@ ShadingLoop choose_shading_loop(const LongestWalk& walk, uint32_t lanes, bool to
 // Lights that passes over all lights (shaders/contributing_*.comp, algorithms/fine_pruned) may see before
 // they take several an iteration (LONG_LISTS).
 constexpr uint32_t max_lights_of_short_passes = 28000;
-// Lights that one dispatch of contributing_pixels.comp or of brute_force looks at; more take several
+// Lights that one dispatch of contributing_pixels.comp or of brute_force looks at at most; more take several
 // dispatches.
 constexpr uint32_t max_lights_of_dispatch = 262144;
+// Lights of a dispatch of an algorithm that walks ranges: as many as the loop that is fastest is sure to get
+// through on a driver that allows `limit` iterations (0: any number).
+uint32_t lights_of_range(uint32_t lanes, uint64_t limit);
 
 }  // namespace ml

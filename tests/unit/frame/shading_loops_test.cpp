@@ -106,10 +106,15 @@ TEST(ShadingLoops, TheLoopChosenIsSureToEndByItself) {
   }
 }
 
-// What one dispatch of brute force looks at is sure to be looked at, with subgroups of any size.
+// What one dispatch of brute force looks at is sure to be looked at, with subgroups of any size, and by the
+// fastest loop.
 TEST(ShadingLoops, ADispatchOfBruteForceEndsByItself) {
+  EXPECT_EQ(lights_of_range(32, 0), max_lights_of_dispatch);
   for (uint32_t lanes : {1u, 4u, 8u, 16u, 32u, 64u}) {
-    const LongestWalk walk{max_lights_of_dispatch, 0};
+    const LongestWalk walk{lights_of_range(lanes, 65535), 0};
+    EXPECT_GT(walk.lights, 1000u);
+    EXPECT_EQ(choose_shading_loop(walk, lanes, false, false, 65535), (ShadingLoop{false, false}));
+    EXPECT_GT(max_iterations({false, false}, {walk.lights + 1, 0}, lanes, false), 65535u);
     EXPECT_LE(max_iterations(choose_shading_loop(walk, lanes, false, false, 65535), walk, lanes, false),
               65535u);
   }
