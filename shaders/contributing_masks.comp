@@ -8,6 +8,10 @@ shared vec3 low[64], high[64];
 
 void main() {
   uint i = gl_LocalInvocationIndex;
+  if (POISON_SHARED) {
+    low[i] = high[i] = vec3(uintBitsToFloat(poison_word));
+    barrier();
+  }
   uvec2 block = gl_WorkGroupID.xy * ML_GROUP + uvec2(i % ML_GROUP, i / ML_GROUP);
   low[i] = vec3(3.0e38);
   high[i] = vec3(-3.0e38);

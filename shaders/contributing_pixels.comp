@@ -40,6 +40,11 @@ void take(SurfacePoint point, bool lit, uint base, inout uint mask, uint next, i
 
 void main() {
   const uint thread = gl_LocalInvocationIndex;
+  if (POISON_SHARED) {
+    for (uint word = thread; word < chunk_words; word += 64u) narrowed[word] = poison_word;
+    if (thread < chunk_words / 32u) occupied[thread] = poison_word;
+    barrier();
+  }
   uvec2 block = gl_WorkGroupID.xy;
   uvec2 pixel = block * ML_BLOCK + gl_LocalInvocationID.xy;
   BlockBounds box = bounds[block.y * push.blocks.x + block.x];

@@ -5,6 +5,7 @@
 // lanes of every vote, ballot and minimum.
 #ifndef ML_SUBGROUP_EXCHANGE_GLSL
 #define ML_SUBGROUP_EXCHANGE_GLSL
+#include "shaders/poison.glsl"
 
 // Lanes of a subgroup, where the device has one size only; else 0. That driver takes gl_SubgroupSize for no constant, and runs both sides of
 // what depends on it.
@@ -12,10 +13,6 @@ layout(constant_id = 11) const uint SUBGROUP_LANES = 0u;
 const bool small_subgroup = SUBGROUP_LANES != 0u && SUBGROUP_LANES <= 8u;
 
 uint subgroup_lanes() { return SUBGROUP_LANES != 0u ? SUBGROUP_LANES : gl_SubgroupSize; }
-
-// For tests: what a workgroup shares begins as garbage, so that nothing is read before it is written.
-layout(constant_id = 15) const bool POISON_SHARED = false;
-const uint poison_word = 0xdeadbeefu;
 
 // The value of the lane whose number differs in one bit.
 uint across(uint value, uint bit) { return subgroupShuffle(value, gl_SubgroupInvocationID ^ bit); }

@@ -49,6 +49,55 @@ TEST(Run, IsWholeAndTheSameAgain) {
   EXPECT_EQ(files[0], files[1]) << "pictures differ between two runs";
 }
 
+// Points of a sweep share programs, level and g-buffer where they can: what each gives is what it gives
+// alone.
+TEST(Run, PointsOfASweepGiveWhatTheyGiveAlone) {
+  Folder folder;
+  const json scenes = {"plane", "canyon"}, sizes = {{48, 27}, {40, 30}}, spots = {0.0, 0.5},
+             counts = {40, 60};
+  const json sweep = {
+      {"scene", scenes}, {"resolution", sizes}, {"lights.spot_fraction", spots}, {"lights.count", counts}};
+  // No heat maps: their scale is that of all cases of a run.
+  const json pictures = {{"images", {0, 1}}, {"heatmaps", json::array()}};
+  const auto run = [&](const std::string& name, const json& changes) {
+    json all = changes;
+    all["outputs"] = pictures;
+    const std::filesystem::path out = folder / name;
+    const Outcome outcome = manylights(
+        {"run", write_config(folder, small_config(all), name + ".json"), "--out", out.string(), "--quiet"});
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    // By what a case is, its counters and hashes of its pictures.
+    std::map<std::string, std::pair<json, std::vector<size_t>>> cases;
+    const json result = valid_result(out);
+    for (const json& item : result["cases"]) {
+      std::vector<size_t> files;
+      for (const json& file : item["files"]["images"])
+        files.push_back(std::hash<std::string>()(text_of(out / file.get<std::string>())));
+      const json what = {item["scene"], item["resolution"], item["lights"], item["algorithm"]};
+      cases[what.dump()] = {item["counters"], files};
+    }
+    return cases;
+  };
+  const auto swept = run("swept", {{"sweep", sweep}});
+  EXPECT_EQ(swept.size(), 32u);
+  size_t compared = 0;
+  for (const json& scene : scenes)
+    for (const json& size : sizes)
+      for (const json& spot : spots) {
+        // One of the two counts, so that the second point of a kept frame is the one that is compared.
+        const auto alone = run(
+            "alone" + std::to_string(compared),
+            {{"scene", scene}, {"resolution", size}, {"lights", {{"count", 60}, {"spot_fraction", spot}}}});
+        for (const auto& [what, given] : alone) {
+          ASSERT_TRUE(swept.contains(what)) << what;
+          EXPECT_EQ(swept.at(what), given) << what;
+          EXPECT_FALSE(given.second.empty());
+          ++compared;
+        }
+      }
+  EXPECT_EQ(compared, 16u);
+}
+
 TEST(Run, SharesAndFiltersCoverAllCasesOnce) {
   Folder folder;
   const std::string config =

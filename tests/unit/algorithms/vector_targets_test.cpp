@@ -77,6 +77,24 @@ VisibleLights culled(const FrameInput& frame, const BoundsConstants& constants) 
   return visible;
 }
 
+// A frame with its lights culled and bounded by scalar code.
+struct BoundedFrame : RandomFrame {
+  const BoundsConstants bounds;
+  const VisibleLights visible;
+  std::vector<LightBox> boxes;
+  uint64_t froxels = 0;          // of all boxes
+  std::vector<uint32_t> places;  // backwards, as those of another order
+  BoxOffsets offsets;
+  explicit BoundedFrame(uint32_t seed)
+      : RandomFrame(seed), bounds(constants()), visible(culled(frame(), bounds)) {
+    reserve_padded(boxes, visible.count);
+    froxels = scalar::bound(visible, bounds, boxes.data());
+    reserve_padded(places, visible.count);
+    for (size_t i = 0; i < visible.count; ++i) places[i] = static_cast<uint32_t>(visible.count - 1 - i);
+    offsets.build(bounds.grid);
+  }
+};
+
 TEST(VectorTargets, AreNamedAndChosenByName) {
   const std::vector<std::string> names = simd::target_names();
   ASSERT_FALSE(names.empty());
@@ -145,28 +163,17 @@ TEST(VectorTargets, PairsAreThoseOfTheBoxes) {
   with_every_target([] {
     for (uint32_t seed = 0; seed < 60; ++seed) {
       SCOPED_TRACE(seed);
-      RandomFrame given(2000 + seed);
-      const BoundsConstants constants = given.constants();
-      const FroxelGrid& grid = constants.grid;
-      const VisibleLights visible = culled(given.frame(), constants);
-      std::vector<LightBox> boxes;
-      reserve_padded(boxes, visible.count);
-      const uint64_t sum = scalar::bound(visible, constants, boxes.data());
-      BoxOffsets offsets;
-      offsets.build(grid);
+      const BoundedFrame given(2000 + seed);
+      const FroxelGrid& grid = given.bounds.grid;
       FroxelPairs pairs;
-      reserve_pairs(pairs, sum);
-      // Backwards, as places of another order.
-      std::vector<uint32_t> places;
-      reserve_padded(places, visible.count);
-      for (size_t i = 0; i < visible.count; ++i) places[i] = static_cast<uint32_t>(visible.count - 1 - i);
+      reserve_pairs(pairs, given.froxels);
       for (bool ordered : {false, true}) {
-        const uint32_t* order = ordered ? places.data() : nullptr;
-        simd::emit(boxes.data(), order, visible.count, grid, offsets, pairs);
-        ASSERT_EQ(pairs.count, sum);
+        const uint32_t* order = ordered ? given.places.data() : nullptr;
+        simd::emit(given.boxes.data(), order, given.visible.count, grid, given.offsets, pairs);
+        ASSERT_EQ(pairs.count, given.froxels);
         size_t next = 0;
-        for (size_t i = 0; i < visible.count; ++i) {
-          const LightBox& box = boxes[order ? order[i] : i];
+        for (size_t i = 0; i < given.visible.count; ++i) {
+          const LightBox& box = given.boxes[order ? order[i] : i];
           for (uint32_t slice = 0; slice < box.slices; ++slice)
             for (uint32_t row = 0; row < box.rows; ++row)
               for (uint32_t column = 0; column < box.columns; ++column, ++next) {
@@ -184,34 +191,25 @@ TEST(VectorTargets, BallTestGivesTheScalarPairs) {
   with_every_target([&] {
     for (uint32_t seed = 0; seed < 60; ++seed) {
       SCOPED_TRACE(seed);
-      RandomFrame given(5000 + seed);
-      const BoundsConstants constants = given.constants();
-      const VisibleLights visible = culled(given.frame(), constants);
-      std::vector<LightBox> boxes;
-      reserve_padded(boxes, visible.count);
-      const uint64_t sum = scalar::bound(visible, constants, boxes.data());
-      BoxOffsets offsets;
-      offsets.build(constants.grid);
+      const BoundedFrame given(5000 + seed);
+      const VisibleLights& visible = given.visible;
+      const LightBox* boxes = given.boxes.data();
       BallTest test;
-      test.build(constants);
+      test.build(given.bounds);
       FroxelPairs pairs, expected;
-      reserve_pairs(pairs, sum, true);
-      reserve_pairs(expected, sum, true);
+      reserve_pairs(pairs, given.froxels, true);
+      reserve_pairs(expected, given.froxels, true);
       std::vector<DepthReach> reaches(given.frame().lights.count());
       for (size_t i = 0; i < visible.count; ++i) {
         const DepthInterval depths = scalar::depth_interval(visible.z[i], visible.radius[i]);
         reaches[visible.index[i]] = {-depths.low, depths.high};
       }
-      std::vector<uint32_t> places;
-      reserve_padded(places, visible.count);
-      for (size_t i = 0; i < visible.count; ++i) places[i] = static_cast<uint32_t>(visible.count - 1 - i);
       for (bool ordered : {false, true}) {
-        const uint32_t* order = ordered ? places.data() : nullptr;
+        const uint32_t* order = ordered ? given.places.data() : nullptr;
         const DepthReach* depths = ordered ? reaches.data() : nullptr;
-        simd::emit_tested(visible, boxes.data(), order, 0, visible.count, constants, test, offsets, depths,
+        simd::emit_tested(visible, boxes, order, 0, visible.count, given.bounds, test, given.offsets, depths,
                           pairs);
-        scalar::emit_tested(visible, boxes.data(), order, 0, visible.count, constants, test, depths,
-                            expected);
+        scalar::emit_tested(visible, boxes, order, 0, visible.count, given.bounds, test, depths, expected);
         const auto used = [&](const auto& all) { return std::span(all).first(pairs.count); };
         ASSERT_EQ(pairs.count, expected.count);
         ASSERT_TRUE(std::ranges::equal(used(pairs.cell), used(expected.cell)));
@@ -220,7 +218,7 @@ TEST(VectorTargets, BallTestGivesTheScalarPairs) {
           ASSERT_TRUE(std::ranges::equal(used(pairs.minus_low), used(expected.minus_low)));
           ASSERT_TRUE(std::ranges::equal(used(pairs.high), used(expected.high)));
         }
-        left_out += sum - pairs.count;
+        left_out += given.froxels - pairs.count;
       }
     }
   });
@@ -232,13 +230,11 @@ TEST(VectorTargets, SweptListsAreThoseOfTheBoxes) {
   with_every_target([] {
     for (uint32_t seed = 0; seed < 60; ++seed) {
       SCOPED_TRACE(seed);
-      RandomFrame given(4000 + seed);
-      const BoundsConstants constants = given.constants();
-      const FroxelGrid& grid = constants.grid;
-      const VisibleLights visible = culled(given.frame(), constants);
-      std::vector<LightBox> boxes;
-      reserve_padded(boxes, visible.count);
-      const uint64_t sum = scalar::bound(visible, constants, boxes.data());
+      const BoundedFrame given(4000 + seed);
+      const FroxelGrid& grid = given.bounds.grid;
+      const VisibleLights& visible = given.visible;
+      const std::vector<LightBox>& boxes = given.boxes;
+      const uint64_t sum = given.froxels;
       std::vector<std::vector<uint32_t>> expected(grid.cells());
       for (size_t i = 0; i < visible.count; ++i)
         for (uint32_t slice = 0; slice < boxes[i].slices; ++slice)
