@@ -73,7 +73,8 @@ TEST(Run, PointsOfASweepGiveWhatTheyGiveAlone) {
       std::vector<size_t> files;
       for (const json& file : item["files"]["images"])
         files.push_back(std::hash<std::string>()(text_of(out / file.get<std::string>())));
-      const json what = {item["scene"], item["resolution"], item["lights"], item["algorithm"]};
+      const json what = {item["scene"], item["resolution"], item["lights"], item["effects"],
+                         item["algorithm"]};
       cases[what.dump()] = {item["counters"], files};
     }
     return cases;
