@@ -86,9 +86,11 @@ TEST(Run, PointsOfASweepGiveWhatTheyGiveAlone) {
     for (const json& size : sizes)
       for (const json& spot : spots) {
         // One of the two counts, so that the second point of a kept frame is the one that is compared.
-        const auto alone = run(
-            "alone" + std::to_string(compared),
-            {{"scene", scene}, {"resolution", size}, {"lights", {{"count", 60}, {"spot_fraction", spot}}}});
+        const json point = {{"scene", {scene}},
+                            {"resolution", {size}},
+                            {"lights.spot_fraction", {spot}},
+                            {"lights.count", {60}}};
+        const auto alone = run("alone" + std::to_string(compared), {{"sweep", point}});
         for (const auto& [what, given] : alone) {
           ASSERT_TRUE(swept.contains(what)) << what;
           EXPECT_EQ(swept.at(what), given) << what;
