@@ -17,6 +17,7 @@
 #include "algorithms/parameters.h"
 #include "harness/base/parallel.h"
 #include "harness/base/spans.h"
+#include "harness/gpu/constant.h"
 #include "shaders/shared/light.h"
 #include "shaders/shared/view.h"
 
@@ -26,7 +27,6 @@ namespace gpu {
 class Commands;
 class Device;
 struct Binding;
-struct Constant;
 }  // namespace gpu
 struct FrameTargets;  // harness/frame/targets.h: g-buffer and result of one resolution
 struct ContributingLists;
@@ -142,8 +142,8 @@ class Algorithm {
   // Names of the storage buffers behind the upload slots, as the shaders call them.
   virtual std::vector<std::string> buffers() const = 0;
   virtual ShadeShaders shade_shaders() const = 0;
-  // Values of the cursor's specialization constants (ids from 16), in order.
-  virtual std::vector<uint32_t> shade_constants() const { return {}; }
+  // Values of the cursor's own specialization constants (constant_id from 32).
+  virtual gpu::Constants shade_constants() const { return {}; }
 
   // No less than any pixel looks at in the frame that prepare() saw last. The shading loop is chosen by it
   // (harness/frame/shading_loops.h). Default: every light of the frame.
@@ -156,9 +156,9 @@ class Algorithm {
   // shading loop than others. Each class is shaded by a program of its own, for what a program can do costs
   // time also where it is not needed.
   virtual TileClasses tile_classes() const { return {}; }
-  // Further constants of a class's program, behind shade_constants(). A higher class can do what a lower one
-  // can; the highest is `TileClasses::most`.
-  virtual std::vector<uint32_t> class_constants(uint32_t /*tile_class*/) const { return {}; }
+  // Further constants of a class's program. A higher class can do what a lower one can; the highest is
+  // `TileClasses::most`.
+  virtual gpu::Constants class_constants(uint32_t /*tile_class*/) const { return {}; }
 
   // The pixels of a subgroup walk their cells' lights together, where the device can (shade.comp:
   // CURSOR_RUNS).
@@ -166,9 +166,9 @@ class Algorithm {
 
   // GPU list building. Default: none.
   //
-  // Once, before the first frame. `shared`: the specialization constants of shaders/light_eval.glsl, for
-  // passes that look at lights. The device outlives the algorithm.
-  virtual void create_gpu(gpu::Device&, const std::vector<gpu::Constant>& /*shared*/) {}
+  // Once, before the first frame. `shared`: the harness's specialization constants (shaders/constants.glsl),
+  // offered to passes that look at lights. The device outlives the algorithm.
+  virtual void create_gpu(gpu::Device&, const gpu::Constants& /*shared*/) {}
   // Records the passes of the frame that prepare() saw last, each in a named span. `frame`: what they may
   // bind, the frame's View, Depth, Surface, Lights and Extras and the algorithm's upload buffers. Dispatches
   // alone: they may run on a queue that knows no graphics, beside other work (gpu::Commands::fork).

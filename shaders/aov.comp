@@ -5,7 +5,7 @@
 #include "shaders/surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint KIND = 0u;
+layout(constant_id = 32) const uint KIND = 0u;
 layout(binding = BIND_EMISSION) uniform sampler2D Emission;
 layout(rgba32f, binding = BIND_RESULT) writeonly uniform image2D Result;
 

@@ -1,10 +1,10 @@
 // Folds the albedo into the light that the shading pass left in two targets.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/constants.glsl"
 #include "shaders/surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 14) const bool EFFECT_EMISSION = false;
 layout(binding = BIND_EMISSION) uniform sampler2D Emission;
 layout(rgba32f, binding = BIND_RESULT) writeonly uniform image2D Result;
 layout(rgba32f, binding = BIND_SPECULAR) readonly uniform image2D Specular;

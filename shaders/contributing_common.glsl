@@ -2,7 +2,6 @@
 #ifndef ML_CONTRIBUTING_COMMON_GLSL
 #define ML_CONTRIBUTING_COMMON_GLSL
 #include "shaders/light_eval.glsl"
-#include "shaders/poison.glsl"
 #include "shaders/shared/contributing.h"
 
 layout(push_constant, scalar) uniform Push { ContributingPush push; };

@@ -2,14 +2,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SURFACE_WRITER
+#include "shaders/constants.glsl"
 #include "shaders/surface.glsl"
 #include "shaders/shared/material.h"
 #ifdef DETAILED
 #include "shaders/normal_map.glsl"
 #endif
 
-layout(constant_id = 0) const bool EFFECT_ALPHA_MASK = false;
-layout(constant_id = 1) const bool EFFECT_CLIP_FAR = false;  // the camera of some frame has a far plane
 layout(push_constant, scalar) uniform Push { MaterialData material; };
 layout(binding = BIND_BASE_COLOR) uniform sampler2D BaseColor;
 layout(location = 0) in vec3 in_normal;

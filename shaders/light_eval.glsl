@@ -5,22 +5,11 @@
 // BRDF: Lambert + GGX with height-correlated Smith visibility and Schlick's Fresnel.
 #ifndef ML_LIGHT_EVAL_GLSL
 #define ML_LIGHT_EVAL_GLSL
+#include "shaders/constants.glsl"
 #include "shaders/numbers.glsl"
 #include "shaders/quads.glsl"
 #include "shaders/shared/light.h"
 #include "shaders/surface.glsl"
-
-layout(constant_id = 0) const bool EFFECT_SPOTS = true;
-layout(constant_id = 1) const bool EFFECT_SPECULAR = true;
-// Loops over lights take several of them an iteration, for drivers that end a shader's loops after so many iterations:
-// harness/frame/shading_loops.h has the driver, the bounds, and when it is on.
-layout(constant_id = 3) const bool LONG_LISTS = false;
-// A shape whose effect is off shines like an omni light of the same radius.
-layout(constant_id = 4) const bool EFFECT_CAPSULES = true;
-layout(constant_id = 5) const bool EFFECT_WEDGES = true;
-layout(constant_id = 6) const bool EFFECT_BOXES = true;
-// Off, probe lights are direct ones.
-layout(constant_id = 10) const bool EFFECT_PROBES = false;
 
 layout(scalar, binding = BIND_LIGHTS) readonly buffer Lights { LightCore lights[]; };
 layout(scalar, binding = BIND_EXTRAS) readonly buffer Extras { LightExtra extras[]; };

@@ -4,8 +4,7 @@
 #ifndef ML_QUADS_GLSL
 #define ML_QUADS_GLSL
 #include "shaders/bindings.glsl"
-
-layout(constant_id = 12) const bool TEXEL_FETCH = false;
+#include "shaders/constants.glsl"
 
 #define QUADS(buffer_name, number) layout(binding = BIND_QUADS + (number)) uniform usamplerBuffer buffer_name
 

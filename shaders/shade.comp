@@ -28,25 +28,16 @@
 // Which pixels are lit forward (gbuffer.frag).
 layout(binding = BIND_FORWARD) uniform usampler2D Forward;
 // Surfaces give light by themselves, which comes on top of all lights' (gbuffer.frag).
-layout(constant_id = 14) const bool EFFECT_EMISSION = false;
 layout(binding = BIND_EMISSION) uniform sampler2D Emission;
 #ifndef FORWARD
 // Pixels are walked in blocks of 8x8, those of a list: where something is seen, the tiles of one class, the sampled reference.
 layout(local_size_x = 8, local_size_y = 8) in;
-// The pixels of a subgroup walk lights together: needs votes, shuffles and arithmetic across the subgroup, and a cursor that can.
-layout(constant_id = 7) const bool WALK_TOGETHER = false;
 layout(scalar, binding = BIND_BLOCKS) readonly buffer Blocks { uint blocks[]; };  // column | row << 16
-// Where the dispatch begins in the list, and the lights [first_light, end_light) that the cursor looks at where it takes the frame's lights in
-// ranges: then the sums and counts of the ranges before are in the pictures.
+// Where the dispatch begins in the list, and the lights [first_light, end_light) that the cursor looks at with WALK_RANGES: then the sums and counts of the ranges before are in the pictures.
 layout(push_constant, scalar) uniform BlockRange { uint first_block, first_light, end_light; };
-layout(constant_id = 2) const bool WALK_RANGES = false;
-// Pixels that are lit forward are left out, and black until the forward pass has lit them.
-layout(constant_id = 8) const bool EFFECT_FORWARD = false;
 layout(rgba32f, binding = BIND_RESULT) uniform image2D Result;
 layout(rgba32f, binding = BIND_SPECULAR) uniform image2D Specular;
 #endif
-// The pass needs no albedo: Result gets the light that the albedo multiplies, Specular the rest, and composite.comp puts them together.
-layout(constant_id = 9) const bool SPLIT_TARGETS = false;
 
 #ifdef COUNTING
 layout(r32ui, binding = BIND_LISTED) uniform uimage2D Listed;

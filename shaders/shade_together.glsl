@@ -56,11 +56,6 @@ uint test_batch(SurfacePoint point, LightCore own, LightExtra own_extra, uint ba
   return contributing;
 }
 
-// Whether batches are tested until one has lights that contribute, before the loop that shades is entered. Where that is a branch which a subgroup
-// skips it makes no difference; a processor that takes its lanes through every loop once then shades as often as lights contribute, and not as often
-// as there are batches.
-layout(constant_id = 13) const bool TEST_AHEAD = false;
-
 // Tests and shades the lights of some runs, a bit for each and not none, for the pixels that want them. Each lane fetches one light of a batch, and
 // hands it to the others when its turn comes, so that a light is fetched once for all of them. Those that contribute are remembered as bits, and shaded
 // when the batch is tested: in the order of the run, as everywhere. No lane leaves before all are done, for none may be missing in a shuffle. Loops

@@ -5,11 +5,8 @@
 // lanes of every vote, ballot and minimum.
 #ifndef ML_SUBGROUP_EXCHANGE_GLSL
 #define ML_SUBGROUP_EXCHANGE_GLSL
-#include "shaders/poison.glsl"
+#include "shaders/constants.glsl"
 
-// Lanes of a subgroup, where the device has one size only; else 0. That driver takes gl_SubgroupSize for no constant, and runs both sides of
-// what depends on it.
-layout(constant_id = 11) const uint SUBGROUP_LANES = 0u;
 const bool small_subgroup = SUBGROUP_LANES != 0u && SUBGROUP_LANES <= 8u;
 
 uint subgroup_lanes() { return SUBGROUP_LANES != 0u ? SUBGROUP_LANES : gl_SubgroupSize; }

@@ -58,7 +58,9 @@ class Clustered final : public Algorithm {
   ShadeShaders shade_shaders() const override {
     return {clustered_shade, clustered_shade_counting, clustered_forward, clustered_forward_counting};
   }
-  std::vector<uint32_t> shade_constants() const override { return {duplicated_, settings_.narrow}; }
+  gpu::Constants shade_constants() const override {
+    return {{"DUPLICATED", duplicated_}, {"NARROW_INDICES", settings_.narrow}};
+  }
 
  private:
   bool duplicated_;

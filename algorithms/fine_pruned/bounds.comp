@@ -7,7 +7,7 @@
 #include "pruned_lists.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 16) const uint BOUNDS = ML_BOUNDS_HULL;
+layout(constant_id = 32) const uint BOUNDS = ML_BOUNDS_HULL;
 layout(scalar, binding = 16) readonly buffer Visible {
   VisibleHeader visible;
   uint visible_lights[];

@@ -16,8 +16,6 @@ namespace {
 
 enum Slot : uint32_t { visible_slot };
 
-constexpr uint32_t probes_constant = 10;  // EFFECT_PROBES in shaders/light_eval.glsl
-
 uint32_t prune_of(const std::string& word) {
   return word == "facing" ? ML_PRUNE_FACING : word == "fine" ? ML_PRUNE_FINE : ML_PRUNE_COARSE;
 }
@@ -63,11 +61,11 @@ class FinePruned final : public Algorithm {
   ShadeShaders shade_shaders() const override {
     return {fine_pruned_shade, fine_pruned_shade_counting, fine_pruned_forward, fine_pruned_forward_counting};
   }
-  std::vector<uint32_t> shade_constants() const override { return {settings_.packed}; }
+  gpu::Constants shade_constants() const override { return {{"PACKED", settings_.packed}}; }
 
-  void create_gpu(gpu::Device& device, const std::vector<gpu::Constant>& shared) override {
+  void create_gpu(gpu::Device& device, const gpu::Constants& shared) override {
     settings_.probes = std::any_of(shared.begin(), shared.end(), [](const gpu::Constant& constant) {
-      return constant.id == probes_constant && constant.value != 0;
+      return constant.name == "EFFECT_PROBES" && constant.value != 0;
     });
     passes_ = std::make_unique<ListPasses>(device, shared, settings_);
   }

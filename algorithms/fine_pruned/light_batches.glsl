@@ -6,7 +6,7 @@
 #include "pruned_lists.h"
 #include "shaders/quads.glsl"
 
-layout(constant_id = 18) const bool TILE_DEPTHS = true;  // false: tiles have no bounds in depth
+layout(constant_id = 34) const bool TILE_DEPTHS = true;  // false: tiles have no bounds in depth
 
 layout(scalar, binding = 16) readonly buffer Visible {
   VisibleHeader visible_data;

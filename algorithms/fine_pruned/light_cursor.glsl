@@ -1,7 +1,7 @@
 // The lists of the pixel's tile: of direct lights, then of probe lights. Without limits they stand one behind the other and are walked as one.
 #include "pruned_lists.h"
 
-layout(constant_id = 16) const bool PACKED = false;
+layout(constant_id = 32) const bool PACKED = false;
 layout(scalar, binding = 16) readonly buffer Visible {
   VisibleHeader visible;
   uint visible_lights[];

@@ -8,7 +8,7 @@
 #include "shaders/light_exchange.glsl"
 
 // With it a light holds a point only where the surface faces it.
-layout(constant_id = 17) const uint PRUNE = ML_PRUNE_FINE;
+layout(constant_id = 33) const uint PRUNE = ML_PRUNE_FINE;
 
 // What only some shapes have of the light that is tested, where it was fetched beforehand (small subgroups); else fetched when it is needed.
 LightExtra extra_at_hand;

@@ -17,8 +17,8 @@ enum Mode : uint32_t { mode_count, mode_lists, mode_packed };
 // Of all regions' lists: each has room for all lights in view.
 constexpr uint64_t most_region_bytes = uint64_t{32} << 20;
 
-std::vector<gpu::Constant> with(std::vector<gpu::Constant> shared, std::initializer_list<gpu::Constant> own) {
-  shared.insert(shared.end(), own);
+gpu::Constants with(gpu::Constants shared, const gpu::Constants& own) {
+  shared.insert(shared.end(), own.begin(), own.end());
   return shared;
 }
 
@@ -28,12 +28,12 @@ uint32_t tiles_along(uint32_t pixels) {
 
 }  // namespace
 
-ListPasses::ListPasses(gpu::Device& device, const std::vector<gpu::Constant>& shared,
-                       const PruneSettings& settings)
+ListPasses::ListPasses(gpu::Device& device, const gpu::Constants& shared, const PruneSettings& settings)
     : device_(device),
       settings_(settings),
       shared_(shared),
-      bounds_(device, fine_pruned_bounds, "fine_pruned: bounds", with(shared, {{16, settings.bounds}})) {
+      bounds_(device, fine_pruned_bounds, "fine_pruned: bounds",
+              with(shared, {{"BOUNDS", settings.bounds}})) {
   if (!settings.packed)
     offsets_ = std::make_unique<gpu::ComputeProgram>(device, fine_pruned_offsets, "fine_pruned: offsets");
   for (Grown* grown :
@@ -44,9 +44,11 @@ ListPasses::ListPasses(gpu::Device& device, const std::vector<gpu::Constant>& sh
 ListPasses::TilePrograms& ListPasses::programs(bool regions) {
   TilePrograms& made = regions ? in_regions_ : flat_;
   const auto make = [&](uint32_t mode, uint32_t prune, const char* name) {
-    return std::make_unique<gpu::ComputeProgram>(
-        device_, fine_pruned_tiles, name,
-        with(shared_, {{16, mode}, {17, prune}, {18, settings_.tile_depths}, {19, regions}}));
+    return std::make_unique<gpu::ComputeProgram>(device_, fine_pruned_tiles, name,
+                                                 with(shared_, {{"MODE", mode},
+                                                                {"PRUNE", prune},
+                                                                {"TILE_DEPTHS", settings_.tile_depths},
+                                                                {"REGIONS", regions}}));
   };
   if (!made.lists) {
     made.lists = make(settings_.packed ? mode_packed : mode_lists, settings_.prune, "fine_pruned: lists");
@@ -54,7 +56,7 @@ ListPasses::TilePrograms& ListPasses::programs(bool regions) {
   }
   if (regions && !regions_)
     regions_ = std::make_unique<gpu::ComputeProgram>(device_, fine_pruned_regions, "fine_pruned: regions",
-                                                     with(shared_, {{18, settings_.tile_depths}}));
+                                                     with(shared_, {{"TILE_DEPTHS", settings_.tile_depths}}));
   return made;
 }
 

@@ -22,7 +22,7 @@ struct PruneSettings {
 
 class ListPasses {
  public:
-  ListPasses(gpu::Device& device, const std::vector<gpu::Constant>& shared, const PruneSettings& settings);
+  ListPasses(gpu::Device& device, const gpu::Constants& shared, const PruneSettings& settings);
 
   // Records the passes. `frame` binds the frame's resources and "Visible"; `entries`: lights that the lists
   // of all tiles hold at most.
@@ -53,7 +53,7 @@ class ListPasses {
 
   gpu::Device& device_;
   PruneSettings settings_;
-  std::vector<gpu::Constant> shared_;
+  gpu::Constants shared_;
   gpu::ComputeProgram bounds_;
   std::unique_ptr<gpu::ComputeProgram> offsets_, regions_;  // none when packed; when not needed yet
   TilePrograms flat_, in_regions_;

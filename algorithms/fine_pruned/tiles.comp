@@ -15,13 +15,13 @@
 #include "pruned_lists.h"
 #include "tile_points.glsl"
 
-layout(constant_id = 19) const bool REGIONS = false;  // the tile's region has listed the lights that it may have (regions.comp)
+layout(constant_id = 35) const bool REGIONS = false;  // the tile's region has listed the lights that it may have (regions.comp)
 uint region_list;                                     // where its list begins
 uint candidate(uint place);
 #include "light_batches.glsl"
 
 layout(local_size_x = ML_PRUNED_GROUP) in;
-layout(constant_id = 16) const uint MODE = 0u;
+layout(constant_id = 32) const uint MODE = 0u;
 const uint mode_count = 0u;   // only counts the coarse lights
 const uint mode_lists = 1u;   // writes the list at the place that offsets.comp found for it
 const uint mode_packed = 2u;  // the chapter's limits, and 32 bytes a list

@@ -34,7 +34,9 @@ class Hybrid final : public TreeAlgorithm {
   ShadeShaders shade_shaders() const override {
     return {hybrid_shade, hybrid_shade_counting, hybrid_forward, hybrid_forward_counting};
   }
-  std::vector<uint32_t> shade_constants() const override { return {list_case_, shared_tree_, narrow_}; }
+  gpu::Constants shade_constants() const override {
+    return {{"LIST_CASE", list_case_}, {"SHARED_TREE", shared_tree_}, {"NARROW_INDICES", narrow_}};
+  }
 
  private:
   bool list_case_, shared_tree_, narrow_;

@@ -3,10 +3,10 @@
 //   case 0  every pixel of the subgroup walks a list: no node is looked at again
 //   case 1  every pixel of the subgroup walks the same tree: its nodes are copied to shared memory
 //   case 2  anything else
-layout(constant_id = 16) const bool LIST_CASE = false;
-layout(constant_id = 17) const bool SHARED_TREE = false;
-layout(constant_id = 18) const bool NARROW_INDICES = false;
-layout(constant_id = 19) const bool HAS_TREES = true;
+layout(constant_id = 32) const bool LIST_CASE = false;
+layout(constant_id = 33) const bool SHARED_TREE = false;
+layout(constant_id = 34) const bool NARROW_INDICES = false;
+layout(constant_id = 35) const bool HAS_TREES = true;
 #include "algorithms/trees/tree_walk.glsl"
 
 #ifndef FORWARD  // fragments have no workgroup

@@ -57,7 +57,7 @@ class LightBvh final : public Algorithm {
   ShadeShaders shade_shaders() const override {
     return {light_bvh_shade, light_bvh_shade_counting, light_bvh_forward, light_bvh_forward_counting};
   }
-  std::vector<uint32_t> shade_constants() const override { return {node_words_}; }
+  gpu::Constants shade_constants() const override { return {{"NODE_WORDS", node_words_}}; }
   // A leaf is a light.
   LongestWalk longest_walk(const FrameInput&) const override { return {0, packing_.nodes().size()}; }
 

@@ -1,6 +1,6 @@
 // The pixel's own walk through the one tree of spheres. The post's loop, mended: leaves are marked and not guessed from their links, so that the last
 // one is lit too, and the walk ends where the nodes do.
-layout(constant_id = 16) const uint NODE_WORDS = 6u;  // 6 or 8 words a node
+layout(constant_id = 32) const uint NODE_WORDS = 6u;  // 6 or 8 words a node
 layout(scalar, binding = 16) readonly buffer Tree { uint node_count_data; };
 uint node_count = node_count_data;  // read before all branches, as the view is (shaders/surface.glsl)
 layout(scalar, binding = 17) readonly buffer SphereNodes { uint sphere_words[]; };

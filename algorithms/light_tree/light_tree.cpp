@@ -34,7 +34,7 @@ class LightTree final : public TreeAlgorithm {
   ShadeShaders shade_shaders() const override {
     return {light_tree_shade, light_tree_shade_counting, light_tree_forward, light_tree_forward_counting};
   }
-  std::vector<uint32_t> shade_constants() const override { return {narrow_}; }
+  gpu::Constants shade_constants() const override { return {{"NARROW_INDICES", narrow_}}; }
 
  private:
   bool narrow_;

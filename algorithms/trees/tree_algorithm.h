@@ -21,7 +21,7 @@ class TreeAlgorithm : public Algorithm {
   LongestWalk longest_walk(const FrameInput&) const final { return trees_.longest_walk(); }
   // Class 1 has trees, class 0 nothing but lists.
   TileClasses tile_classes() const final { return trees_.tile_classes(); }
-  std::vector<uint32_t> class_constants(uint32_t tile_class) const final { return {tile_class}; }
+  gpu::Constants class_constants(uint32_t tile_class) const final { return {{"HAS_TREES", tile_class}}; }
 
  private:
   TreePrepare trees_;

@@ -230,7 +230,7 @@ std::vector<float> DeviceFrame::read_floats(const gpu::Image& image) {
 }
 
 std::vector<float> DeviceFrame::read_aov(Aov kind) {
-  gpu::ComputeProgram program(device_, aov_comp, "aov", {{0, static_cast<uint32_t>(kind)}});
+  gpu::ComputeProgram program(device_, aov_comp, "aov", {{"KIND", static_cast<uint32_t>(kind)}});
   commands_.begin(gpu::Timing::none);
   commands_.dispatch(program, bindings(), std::span<const std::byte>{}, groups(targets_.width(), 8),
                      groups(targets_.height(), 8));

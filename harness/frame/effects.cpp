@@ -33,20 +33,20 @@ std::vector<std::string> Effects::names(const gpu::Device& device) const {
   return list;
 }
 
-std::vector<gpu::Constant> Effects::constants(const gpu::Device& device) const {
+gpu::Constants Effects::constants(const gpu::Device& device) const {
   const gpu::DeviceLimits& limits = device.limits();
-  return {{0, spots},
-          {1, specular},
-          {3, takes_long_lists(device)},
-          {4, capsules},
-          {5, wedges},
-          {6, boxes},
-          {10, probes},
-          {11, limits.one_subgroup_size && !any_subgroup_size ? limits.subgroup_size : 0},
-          {12, fetches_texels(device)},
-          {13, test_ahead},
-          {14, emission},
-          {15, poison_shared}};
+  return {{"EFFECT_SPOTS", spots, true},
+          {"EFFECT_CAPSULES", capsules, true},
+          {"EFFECT_WEDGES", wedges, true},
+          {"EFFECT_BOXES", boxes, true},
+          {"EFFECT_PROBES", probes, true},
+          {"EFFECT_SPECULAR", specular, true},
+          {"EFFECT_EMISSION", emission, true},
+          {"LONG_LISTS", takes_long_lists(device), true},
+          {"SUBGROUP_LANES", limits.one_subgroup_size && !any_subgroup_size ? limits.subgroup_size : 0, true},
+          {"TEXEL_FETCH", fetches_texels(device), true},
+          {"TEST_AHEAD", test_ahead, true},
+          {"POISON_SHARED", poison_shared, true}};
 }
 
 void require_texels(const gpu::DeviceLimits& limits, const std::string& what, uint64_t bytes) {

@@ -64,9 +64,8 @@ struct Effects {
     return 1u | (spots ? 2u : 0u) | (capsules ? 4u : 0u) | (wedges ? 8u : 0u) | (boxes ? 16u : 0u) |
            (probes ? 32u : 0u);
   }
-  // The specialization constants that shaders/light_eval.glsl, shade_together.glsl, subgroup_exchange.glsl
-  // and quads.glsl ask for.
-  std::vector<gpu::Constant> constants(const gpu::Device& device) const;
+  // Their specialization constants (shaders/constants.glsl), offered to any program.
+  gpu::Constants constants(const gpu::Device& device) const;
 };
 
 // Throws SystemError when texel buffers of the device do not show so many bytes of `what`. To be asked where

@@ -81,9 +81,9 @@ std::unique_ptr<gpu::RasterProgram> gbuffer_program(gpu::Device& device, bool ma
   state.colors = {gpu::Format::rg32_uint};
   if (effects.forward) state.colors.push_back(gpu::Format::r32_uint);
   if (effects.emission) state.colors.push_back(gpu::Format::rgba32_float);
-  return std::make_unique<gpu::RasterProgram>(device, gbuffer_vertex(effects), gbuffer_fragment(effects),
-                                              masked ? "gbuffer (alpha mask)" : "gbuffer", state,
-                                              std::vector<gpu::Constant>{{0, masked}, {1, effects.clip_far}});
+  return std::make_unique<gpu::RasterProgram>(
+      device, gbuffer_vertex(effects), gbuffer_fragment(effects), masked ? "gbuffer (alpha mask)" : "gbuffer",
+      state, gpu::Constants{{"EFFECT_ALPHA_MASK", masked}, {"EFFECT_CLIP_FAR", effects.clip_far}});
 }
 
 // Opaque triangles need no fragment shader, and of a vertex its position alone.
@@ -268,7 +268,7 @@ void Level::record_depth(gpu::Commands& commands, const gpu::Buffer& view, const
 
 gpu::RasterProgram Level::forward_program(gpu::Device& device, std::span<const uint32_t> fragment,
                                           const std::string& name, const Effects& effects,
-                                          const std::vector<gpu::Constant>& constants) {
+                                          const gpu::Constants& constants) {
   gpu::RasterState state = vertex_state();
   state.colors = {gpu::Format::rgba32_float};
   state.at_equal_depth = true;

@@ -26,7 +26,7 @@ class Level {
   // A program of the forward pass; `fragment` is ShadeShaders::forward or its counting twin.
   static gpu::RasterProgram forward_program(gpu::Device& device, std::span<const uint32_t> fragment,
                                             const std::string& name, const Effects& effects,
-                                            const std::vector<gpu::Constant>& constants);
+                                            const gpu::Constants& constants);
   // Draws what is lit forward into the result, over what is there; `bindings` is what the shading loop binds.
   void record_forward(gpu::Commands& commands, const gpu::RasterProgram& program,
                       const gpu::Bindings& bindings, const FrameTargets& targets) const;

@@ -15,20 +15,8 @@ namespace {
 // Workgroups along one axis on the smallest devices.
 constexpr uint32_t most_groups = 65535;
 
-// Where an algorithm's own constants begin.
-constexpr uint32_t first_own_id = 16;
-
-// Appends values with ids from `id` on; returns the id behind them.
-uint32_t append_numbered(std::vector<gpu::Constant>& constants, uint32_t id,
-                         const std::vector<uint32_t>& values) {
-  for (uint32_t value : values) constants.push_back({id++, value});
-  return id;
-}
-
-// LONG_LISTS of a shading program goes by what its pixels walk, not by the lights of the frame.
-void set_long_walks(std::vector<gpu::Constant>& constants, bool long_walks) {
-  for (gpu::Constant& constant : constants)
-    if (constant.id == 3) constant.value = long_walks;
+void append(gpu::Constants& constants, const gpu::Constants& more) {
+  constants.insert(constants.end(), more.begin(), more.end());
 }
 
 // shaders/shade.comp: BlockRange.
@@ -67,7 +55,7 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
   class_blocks_.map(0);
   if (effects.split_targets)
     composite_.emplace(device, composite_comp, "composite",
-                       std::vector<gpu::Constant>{{14, effects.emission}});
+                       gpu::Constants{{"EFFECT_EMISSION", effects.emission}});
   if (!effects.forward) return;
   if (!device.limits().fragment_stores)
     throw SystemError("forward materials: '" + device.info().name +
@@ -80,9 +68,10 @@ const gpu::RasterProgram& ShadedAlgorithm::forward_program(bool counting, bool l
   if (auto found = forward_programs_.find(key); found != forward_programs_.end()) return found->second;
   const ShadeShaders shaders = algorithm_->shade_shaders();
   // Forward materials have their albedo at hand: their light goes to the result at once. Pixels walk alone.
-  std::vector<gpu::Constant> constants = effects_.constants(device_);
-  set_long_walks(constants, long_walks);
-  append_numbered(constants, first_own_id, algorithm_->shade_constants());
+  gpu::Constants constants = effects_.constants(device_);
+  constants.push_back({"LONG_LISTS", long_walks});
+  append(constants, algorithm_->shade_constants());
+  append(constants, algorithm_->class_constants(algorithm_->tile_classes().most));
   return forward_programs_
       .emplace(key,
                Level::forward_program(device_, counting ? shaders.forward_counting : shaders.forward,
@@ -91,17 +80,16 @@ const gpu::RasterProgram& ShadedAlgorithm::forward_program(bool counting, bool l
       .first->second;
 }
 
-// Ids shared by every shading program: shaders/light_eval.glsl, shaders/shade.comp.
 const gpu::ComputeProgram& ShadedAlgorithm::program(const Variant& variant) {
   if (auto found = programs_.find(variant); found != programs_.end()) return found->second;
-  std::vector<gpu::Constant> constants = effects_.constants(device_);
-  set_long_walks(constants, variant.loop.long_walks);
-  constants.push_back({7, variant.loop.together});
-  constants.push_back({8, effects_.forward && !variant.sampled});
-  constants.push_back({9, effects_.split_targets && !variant.sampled});
-  constants.push_back({2, algorithm_->walks_ranges()});
-  const uint32_t behind = append_numbered(constants, first_own_id, algorithm_->shade_constants());
-  append_numbered(constants, behind, algorithm_->class_constants(variant.tile_class));
+  gpu::Constants constants = effects_.constants(device_);
+  append(constants, {{"LONG_LISTS", variant.loop.long_walks},
+                     {"WALK_TOGETHER", variant.loop.together},
+                     {"WALK_RANGES", algorithm_->walks_ranges()},
+                     {"EFFECT_FORWARD", effects_.forward && !variant.sampled},
+                     {"SPLIT_TARGETS", effects_.split_targets && !variant.sampled}});
+  append(constants, algorithm_->shade_constants());
+  append(constants, algorithm_->class_constants(variant.tile_class));
   const ShadeShaders shaders = algorithm_->shade_shaders();
   return programs_
       .emplace(std::piecewise_construct, std::forward_as_tuple(variant),

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "harness/gpu/specialization.h"
 #include "harness/gpu/vulkan.h"
 
 namespace ml::gpu {
@@ -47,6 +46,16 @@ class Reflection {
     return (base == SPVC_BASETYPE_SAMPLED_IMAGE || base == SPVC_BASETYPE_IMAGE) &&
            spvc_type_get_image_dimension(type) == SpvDimBuffer;
   }
+  ConstantIds constant_ids() const {
+    const spvc_specialization_constant* constants = nullptr;
+    size_t count = 0;
+    if (spvc_compiler_get_specialization_constants(compiler_, &constants, &count) != SPVC_SUCCESS)
+      throw std::logic_error("SPIRV-Cross cannot list specialization constants");
+    ConstantIds ids;
+    for (const spvc_specialization_constant& constant : std::span(constants, count))
+      ids[spvc_compiler_get_name(compiler_, constant.id)] = constant.constant_id;
+    return ids;
+  }
   uint32_t bytes(const spvc_reflected_resource& resource) const {
     size_t size = 0;
     spvc_compiler_get_declared_struct_size(
@@ -61,8 +70,8 @@ class Reflection {
 };
 
 vk::raii::ShaderModule make_module(const Device::Impl& device, std::span<const uint32_t> spirv,
-                                   const std::vector<Constant>& constants, const std::string& program) {
-  const std::vector<uint32_t> module = specialized(spirv, constants, program);
+                                   const SpecializationValues& values, const std::string& program) {
+  const std::vector<uint32_t> module = specialized(spirv, values, program);
   return {device.device, vk::ShaderModuleCreateInfo({}, module.size() * sizeof(uint32_t), module.data())};
 }
 
@@ -84,8 +93,8 @@ std::shared_ptr<Impl> once(ProgramCache<Impl>& cache, const ProgramKey& key, con
 
 }  // namespace
 
-void Layout::add_module(std::span<const uint32_t> spirv, vk::ShaderStageFlagBits stage,
-                        const std::string& program) {
+ConstantIds Layout::add_module(std::span<const uint32_t> spirv, vk::ShaderStageFlagBits stage,
+                               const std::string& program) {
   Reflection reflection(spirv, program);
   const std::pair<spvc_resource_type, vk::DescriptorType> kinds[] = {
       {SPVC_RESOURCE_TYPE_STORAGE_BUFFER, vk::DescriptorType::eStorageBuffer},
@@ -113,6 +122,7 @@ void Layout::add_module(std::span<const uint32_t> spirv, vk::ShaderStageFlagBits
     push_bytes = std::max(push_bytes, (reflection.bytes(resource) + 3) / 4 * 4);
     push_stages |= stage;
   }
+  return reflection.constant_ids();
 }
 
 void Layout::create(Device::Impl& device) {
@@ -126,16 +136,17 @@ void Layout::create(Device::Impl& device) {
 }
 
 ComputeProgram::ComputeProgram(Device& owner, std::span<const uint32_t> spirv, const std::string& name,
-                               const std::vector<Constant>& constants)
+                               const Constants& constants)
     : name_(name) {
   Device::Impl& device = owner.impl();
   ProgramKey key;
   key.add(spirv);
   key.add(constants);
   impl_ = once(device.compute_programs, key, name, [&](Impl& impl) {
-    impl.layout.add_module(spirv, vk::ShaderStageFlagBits::eCompute, name);
+    const ConstantIds ids = impl.layout.add_module(spirv, vk::ShaderStageFlagBits::eCompute, name);
+    const auto values = specialization_values({ids}, constants, name);
     impl.layout.create(device);
-    vk::raii::ShaderModule module = make_module(device, spirv, constants, name);
+    vk::raii::ShaderModule module = make_module(device, spirv, values[0], name);
     vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
     impl.pipeline = vk::raii::Pipeline(
         device.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *impl.layout.pipeline_layout));
@@ -148,7 +159,7 @@ ComputeProgram& ComputeProgram::operator=(ComputeProgram&&) noexcept = default;
 
 RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex,
                              std::span<const uint32_t> fragment, const std::string& name,
-                             const RasterState& state, const std::vector<Constant>& constants)
+                             const RasterState& state, const Constants& constants)
     : name_(name) {
   Device::Impl& device = owner.impl();
   ProgramKey key;
@@ -158,14 +169,15 @@ RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex,
   key.add(state);
   impl_ = once(device.raster_programs, key, name, [&](Impl& impl) {
     using Stage = vk::ShaderStageFlagBits;
-    impl.layout.add_module(vertex, Stage::eVertex, name);
-    if (!fragment.empty()) impl.layout.add_module(fragment, Stage::eFragment, name);
+    std::vector ids{impl.layout.add_module(vertex, Stage::eVertex, name)};
+    if (!fragment.empty()) ids.push_back(impl.layout.add_module(fragment, Stage::eFragment, name));
+    const auto values = specialization_values(ids, constants, name);
     impl.layout.create(device);
-    vk::raii::ShaderModule vertex_module = make_module(device, vertex, constants, name),
+    vk::raii::ShaderModule vertex_module = make_module(device, vertex, values[0], name),
                            fragment_module = nullptr;
     std::vector stages{vk::PipelineShaderStageCreateInfo({}, Stage::eVertex, *vertex_module, "main")};
     if (!fragment.empty()) {
-      fragment_module = make_module(device, fragment, constants, name);
+      fragment_module = make_module(device, fragment, values[1], name);
       stages.emplace_back(vk::PipelineShaderStageCreateFlags{}, Stage::eFragment, *fragment_module, "main");
     }
     vk::VertexInputBindingDescription vertex_binding(0, state.vertex_stride, vk::VertexInputRate::eVertex);

@@ -11,22 +11,17 @@
 #include <string>
 #include <vector>
 
+#include "harness/gpu/constant.h"
 #include "harness/gpu/device.h"
 #include "harness/gpu/resources.h"
 
 namespace ml::gpu {
 
-// A value for `layout(constant_id = id)`.
-struct Constant {
-  uint32_t id;
-  uint32_t value;
-};
-
 class ComputeProgram {
  public:
   // Throws SystemError when the device refuses the module.
   ComputeProgram(Device& device, std::span<const uint32_t> spirv, const std::string& name,
-                 const std::vector<Constant>& constants = {});
+                 const Constants& constants = {});
   ~ComputeProgram();
   ComputeProgram(ComputeProgram&&) noexcept;
   ComputeProgram& operator=(ComputeProgram&&) noexcept;
@@ -59,8 +54,7 @@ struct RasterState {
 class RasterProgram {
  public:
   RasterProgram(Device& device, std::span<const uint32_t> vertex, std::span<const uint32_t> fragment,
-                const std::string& name, const RasterState& state,
-                const std::vector<Constant>& constants = {});
+                const std::string& name, const RasterState& state, const Constants& constants = {});
   ~RasterProgram();
   RasterProgram(RasterProgram&&) noexcept;
   RasterProgram& operator=(RasterProgram&&) noexcept;

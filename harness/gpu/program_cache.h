@@ -20,10 +20,11 @@ class ProgramKey {
     words_.push_back(static_cast<uint32_t>(words.size()));
     words_.insert(words_.end(), words.begin(), words.end());
   }
-  void add(const std::vector<Constant>& constants) {
+  void add(const Constants& constants) {
     words_.push_back(static_cast<uint32_t>(constants.size()));
     for (const Constant& constant : constants) {
-      words_.push_back(constant.id);
+      words_.push_back(static_cast<uint32_t>(constant.name.size()));
+      words_.insert(words_.end(), constant.name.begin(), constant.name.end());
       words_.push_back(constant.value);
     }
   }

@@ -8,17 +8,29 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "harness/gpu/program.h"
+#include "harness/gpu/constant.h"
 
 namespace ml::gpu {
 
-// `constants`: values by constant id; constants of the module that are not named keep their defaults, ids
-// that the module does not have are left out. Throws std::logic_error when the module is not valid.
-std::vector<uint32_t> specialized(std::span<const uint32_t> spirv, const std::vector<Constant>& constants,
+// constant_id of each specialization constant of a module, by its name.
+using ConstantIds = std::map<std::string, uint32_t>;
+// Values by constant_id.
+using SpecializationValues = std::map<uint32_t, uint32_t>;
+
+// The values that each of a program's modules gets. Throws std::logic_error, naming the program and the
+// constant, where no module has a constant that is not only offered, where one of a module's own constants
+// (first_own_constant) is not given, and where two constants of a module have one id.
+std::vector<SpecializationValues> specialization_values(const std::vector<ConstantIds>& modules,
+                                                        const Constants& constants,
+                                                        const std::string& program);
+
+// Constants without a value keep their defaults. Throws std::logic_error when the module is not valid.
+std::vector<uint32_t> specialized(std::span<const uint32_t> spirv, const SpecializationValues& values,
                                   const std::string& program);
 
 }  // namespace ml::gpu

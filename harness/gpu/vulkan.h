@@ -15,6 +15,7 @@
 #include "harness/gpu/program.h"
 #include "harness/gpu/program_cache.h"
 #include "harness/gpu/resources.h"
+#include "harness/gpu/specialization.h"
 
 namespace ml::gpu {
 
@@ -102,7 +103,9 @@ struct Layout {
   vk::raii::DescriptorSetLayout set_layout = nullptr;
   vk::raii::PipelineLayout pipeline_layout = nullptr;
 
-  void add_module(std::span<const uint32_t> spirv, vk::ShaderStageFlagBits stage, const std::string& program);
+  // Returns the ids of its specialization constants.
+  ConstantIds add_module(std::span<const uint32_t> spirv, vk::ShaderStageFlagBits stage,
+                         const std::string& program);
   void create(Device::Impl& device);
 };
 

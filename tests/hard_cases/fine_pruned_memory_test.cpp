@@ -19,9 +19,9 @@ class Starved final : public Algorithm {
   PrepareCounters counters() const override { return inner_->counters(); }
   std::vector<std::string> buffers() const override { return inner_->buffers(); }
   ShadeShaders shade_shaders() const override { return inner_->shade_shaders(); }
-  std::vector<uint32_t> shade_constants() const override { return inner_->shade_constants(); }
+  gpu::Constants shade_constants() const override { return inner_->shade_constants(); }
   bool walks_together() const override { return inner_->walks_together(); }
-  void create_gpu(gpu::Device& owner, const std::vector<gpu::Constant>& shared) override {
+  void create_gpu(gpu::Device& owner, const gpu::Constants& shared) override {
     passes_ = std::make_unique<ListPasses>(owner, shared, PruneSettings{});
   }
   void cull(gpu::Commands& commands, const FrameInput& frame, const gpu::Bindings& bound) override {

@@ -24,14 +24,14 @@ class Exactness::Replaceable final : public Algorithm {
   PrepareCounters counters() const override { return (*inner_)->counters(); }
   std::vector<std::string> buffers() const override { return (*inner_)->buffers(); }
   ShadeShaders shade_shaders() const override { return (*inner_)->shade_shaders(); }
-  std::vector<uint32_t> shade_constants() const override { return (*inner_)->shade_constants(); }
+  gpu::Constants shade_constants() const override { return (*inner_)->shade_constants(); }
   bool walks_together() const override { return (*inner_)->walks_together(); }
   LongestWalk longest_walk(const FrameInput& frame) const override { return (*inner_)->longest_walk(frame); }
   TileClasses tile_classes() const override { return (*inner_)->tile_classes(); }
-  std::vector<uint32_t> class_constants(uint32_t tile_class) const override {
+  gpu::Constants class_constants(uint32_t tile_class) const override {
     return (*inner_)->class_constants(tile_class);
   }
-  void create_gpu(gpu::Device& owner, const std::vector<gpu::Constant>& shared) override {
+  void create_gpu(gpu::Device& owner, const gpu::Constants& shared) override {
     (*inner_)->create_gpu(owner, shared);
   }
   void cull(gpu::Commands& commands, const FrameInput& frame,
@@ -170,7 +170,7 @@ Exactness::Slot& Exactness::slot_of(const Trial& trial) {
   // Passes of its own are compiled for each set of parameters, so those are kept with their programs.
   const bool own_passes = real.info.gpu_stages.size() > 1;
   std::string key = own_passes ? trial.text() : trial.algorithm + (made->walks_together() ? " together" : "");
-  for (uint32_t constant : made->shade_constants()) key += fmt::format(" {}", constant);
+  for (const gpu::Constant& constant : made->shade_constants()) key += fmt::format(" {}", constant.value);
   Slot& slot = slots_[key];
   if (!slot.shaded) {
     slot.inner = std::make_shared<std::unique_ptr<Algorithm>>(std::move(made));
