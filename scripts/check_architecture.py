@@ -32,8 +32,8 @@ ARROWS = {
     "frame": ["base", "scene", "gpu", "algorithms", "shaders"],
     "config": ["base", "scene", "algorithms"],
     "bench": ["base", "scene", "gpu", "algorithms", "shaders", "measure", "output", "accuracy", "frame", "config"],
-    # gpu for the list of devices
-    "cli": ["base", "gpu", "config", "bench"],
+    # gpu and frame for the lists of devices and effects
+    "cli": ["base", "scene", "gpu", "frame", "config", "bench"],
 }
 SHADERS = ["shaders"]  # what GLSL may include besides its own folder
 SHARED = {"froxels", "trees"}  # folders in algorithms/ that several algorithms are made of; trees stand on froxels

@@ -8,18 +8,18 @@ glm::dvec3 three(const std::vector<float>& data, size_t pixel) {
 }
 
 // A shape whose effect is off shines like an omni light.
-bool shines(LightShape shape, const Effects& effects) {
+bool shines(LightShape shape, const FrameOptions& options) {
   switch (shape) {
     case LightShape::omni:
       return true;
     case LightShape::spot:
-      return effects.spots;
+      return options.effects.spots;
     case LightShape::capsule:
-      return effects.capsules;
+      return options.effects.capsules;
     case LightShape::wedge:
-      return effects.wedges;
+      return options.effects.wedges;
     case LightShape::box:
-      return effects.boxes;
+      return options.effects.boxes;
   }
   return false;
 }
@@ -48,16 +48,16 @@ OracleFrame::OracleFrame(DeviceFrame& frame, const FrameInput& input)
       normal_(frame.read_aov(DeviceFrame::Aov::normal)),
       albedo_(frame.read_aov(DeviceFrame::Aov::albedo)),
       material_(frame.read_aov(DeviceFrame::Aov::material)) {
-  if (frame.effects().emission) emission_ = frame.read_aov(DeviceFrame::Aov::emission);
+  if (frame.options().effects.emission) emission_ = frame.read_aov(DeviceFrame::Aov::emission);
   for (size_t i = 0; i < input.lights.count(); ++i) {
     const gpu_data::LightCore& core = input.lights.core[i];
     OracleLight light;
     light.position = core.position;
     light.radius = static_cast<double>(core.radius);
     light.intensity = core.intensity;
-    light.probe = frame.effects().probes && (core.id_shape & ML_LIGHT_PROBE) != 0;
+    light.probe = frame.options().effects.probes && (core.id_shape & ML_LIGHT_PROBE) != 0;
     const auto shape = static_cast<LightShape>(core.id_shape >> 24);
-    if (shape != LightShape::omni && shines(shape, frame.effects()))
+    if (shape != LightShape::omni && shines(shape, frame.options()))
       set_shape(shape, input.lights.extra[i], light);
     lights_.push_back(light);
   }

@@ -68,7 +68,7 @@ Picture aov_picture(const std::string& name, DeviceFrame& frame, const PixelCoun
   if (name == "material")
     return picked(frame.read_aov(Aov::material), width, height, {"roughness", "metallic"}, 0);
   if (name == "emission") {
-    if (!frame.effects().emission) return Picture(width, height, {"R", "G", "B"});
+    if (!frame.options().effects.emission) return Picture(width, height, {"R", "G", "B"});
     return picked(frame.read_aov(Aov::emission), width, height, {"R", "G", "B"}, 0);
   }
   if (name == "depth") return picked(frame.read_aov(Aov::position), width, height, {"Y"}, 3);
@@ -112,9 +112,9 @@ std::vector<std::filesystem::path> render_frame(const Config& config, const Rend
   Workload workload(setup, config.measure.threads);
   gpu::Device device({options.device, options.validation});
   fmt::print("device: {} ({}, {})\n", device.info().name, device.info().type, device.info().driver);
-  DeviceFrame frame(device, *workload.scene(), workload.effects(), setup.width, setup.height);
+  DeviceFrame frame(device, *workload.scene(), workload.options(), setup.width, setup.height);
   const AlgorithmEntry& entry = find_algorithm(spec.name, "render");
-  ShadedAlgorithm algorithm(device, entry, spec.parameters, workload.effects());
+  ShadedAlgorithm algorithm(device, entry, spec.parameters, workload.options());
   const FrameInput& input = workload.frames().at(options.frame);
   frame.load(input);
   require_surface(setup, frame.seen_blocks().places().empty(), 1);

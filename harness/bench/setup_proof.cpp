@@ -101,28 +101,28 @@ SetupProof::SetupProof(gpu::Device& device, const Config& config, const std::vec
       options_(options),
       device_(device),
       workload_(setup_, config.measure.threads),
-      frame_(device, *workload_.scene(), workload_.effects(), setup_.width, setup_.height),
+      frame_(device, *workload_.scene(), workload_.options(), setup_.width, setup_.height),
       tallies_(cases.size()) {
   const AlgorithmEntry& brute = entry_that([](const AlgorithmInfo& info) { return info.reference_only; });
   if (size_t lights = workload_.lights().base().size();
       brute.info.max_lights && lights > brute.info.max_lights)
     throw UsageError(fmt::format("verify: {} lights, brute force holds {}", lights, brute.info.max_lights));
   Parameters single(brute.parameters);
-  brute_ = std::make_unique<ShadedAlgorithm>(device, brute, single, workload_.effects());
+  brute_ = std::make_unique<ShadedAlgorithm>(device, brute, single, workload_.options());
   if (device.limits().fp64) {
     Parameters twice(brute.parameters);
     twice.set(brute.parameters, "precision", std::string("fp64"), "verify");
-    brute64_ = std::make_unique<ShadedAlgorithm>(device, brute, twice, workload_.effects());
+    brute64_ = std::make_unique<ShadedAlgorithm>(device, brute, twice, workload_.options());
   }
   const AlgorithmEntry& ideal =
       entry_that([](const AlgorithmInfo& info) { return info.needs_contributing_lists; });
   ideal_ =
-      std::make_unique<ShadedAlgorithm>(device, ideal, Parameters(ideal.parameters), workload_.effects());
+      std::make_unique<ShadedAlgorithm>(device, ideal, Parameters(ideal.parameters), workload_.options());
   for (const Case& item : cases_) {
     const AlgorithmSpec& spec = setup_.algorithms[item.algorithm];
     entries_.push_back(&find_algorithm(spec.name, item.id));
     algorithms_.push_back(
-        std::make_unique<ShadedAlgorithm>(device, *entries_.back(), spec.parameters, workload_.effects()));
+        std::make_unique<ShadedAlgorithm>(device, *entries_.back(), spec.parameters, workload_.options()));
   }
 }
 
@@ -185,7 +185,7 @@ void SetupProof::prove_references(const FrameInput& input, uint32_t index) {
   ideal_->count(frame_, input);
   ideal_image_ = result_picture(frame_);
   oracle_.emplace(frame_, input);
-  judge_.emplace(*oracle_, workload_.effects().specular, frame_.contributing().count);
+  judge_.emplace(*oracle_, workload_.options().effects.specular, frame_.contributing().count);
   const uint64_t lights = std::max<uint64_t>(input.lights.count(), 1);
   blocks_ = sampled_blocks(setup_.width, setup_.height,
                            std::max<uint64_t>(options_.brute_force_tests / (64 * lights), 16),

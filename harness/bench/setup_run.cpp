@@ -30,7 +30,7 @@ CaseResult empty_result(const gpu::Device& device, const Config& config, const C
   result.lights = static_cast<uint32_t>(workload.lights().base().size());
   result.width = setup.width;
   result.height = setup.height;
-  result.effects = workload.effects().names(device);
+  result.effects = workload.options().names(device);
   for (uint32_t i = 0; i < setup.camera.frames; ++i) result.frames.push_back(i);
   result.cpu_ms = result.gpu_ms = SampleTable(config.measure.repeats, setup.camera.frames);
   keep_books(workload, result);
@@ -51,11 +51,11 @@ namespace {
 // The kept frame where it fits the workload, else a new one in its place.
 DeviceFrame& frame_for(gpu::Device& device, Workload& workload, KeptFrame& kept) {
   const uint32_t width = workload.frames().width(), height = workload.frames().height();
-  if (kept.frame && kept.scene == workload.scene() && kept.frame->effects() == workload.effects() &&
+  if (kept.frame && kept.scene == workload.scene() && kept.frame->options() == workload.options() &&
       kept.frame->targets().width() == width && kept.frame->targets().height() == height)
     return *kept.frame;
   kept.frame.reset();  // before the new one takes as much memory
-  kept.frame = std::make_unique<DeviceFrame>(device, *workload.scene(), workload.effects(), width, height);
+  kept.frame = std::make_unique<DeviceFrame>(device, *workload.scene(), workload.options(), width, height);
   kept.scene = workload.scene();
   return *kept.frame;
 }
@@ -81,7 +81,7 @@ SetupRun::SetupRun(gpu::Device& device, const Config& config, const std::vector<
     const AlgorithmSpec& spec = setup_of(config_, cases_).algorithms[item.algorithm];
     const AlgorithmEntry& entry = find_algorithm(spec.name, item.id);
     algorithms_.push_back(
-        std::make_unique<ShadedAlgorithm>(device_, entry, spec.parameters, workload_.effects()));
+        std::make_unique<ShadedAlgorithm>(device_, entry, spec.parameters, workload_.options()));
     wants_lists_ |= entry.info.needs_contributing_lists;
     results_.push_back(empty_result(device_, config_, item, workload_));
     results_.back().overlap = expected_overlap(device_, setup_of(config_, cases_).shading, entry.info,

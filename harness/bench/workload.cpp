@@ -44,33 +44,17 @@ Workload::Workload(const Setup& setup, unsigned threads, std::shared_ptr<const S
       lights_(std::make_unique<LightSet>(setup.lights, *scene_)),
       path_(path_of(setup.camera, *scene_)),
       threads_(threads) {
-  auto has = [this](LightShape shape) {
-    return std::any_of(lights_->base().begin(), lights_->base().end(),
-                       [shape](const Light& light) { return light.shape == shape; });
-  };
-  effects_.spots = setup.effects.spots && has(LightShape::spot);
-  effects_.capsules = setup.effects.capsules && has(LightShape::capsule);
-  effects_.wedges = setup.effects.wedges && has(LightShape::wedge);
-  effects_.boxes = setup.effects.boxes && has(LightShape::box);
-  effects_.probes = setup.effects.probes && std::any_of(lights_->base().begin(), lights_->base().end(),
-                                                        [](const Light& light) { return light.probe; });
-  effects_.specular = setup.effects.specular;
-  effects_.long_lists = lights_->base().size() > max_lights_of_short_passes;
-  effects_.alpha_mask = setup.effects.alpha_mask && Level::has_masked_material(*scene_);
-  effects_.forward = setup.effects.forward && Level::has_forward_material(*scene_);
-  effects_.clip_far = path_.clips_far;
-  effects_.motion = !scene_->draw_motions.empty();
-  effects_.material_detail = setup.effects.material_detail && Level::has_material_detail(*scene_);
-  effects_.emission = setup.effects.emission && Level::has_emission(*scene_);
-  effects_.split_targets = setup.shading.targets == ShadingTargets::split;
-  effects_.shadow_maps = setup.shading.shadow_maps;
-  effects_.shadow_map_size = setup.shading.shadow_map_size;
-  effects_.compute_lists = setup.shading.list_queue == ListQueue::compute;
+  options_.effects = effects_of({*scene_, lights_->base(), path_}, setup.effects);
+  options_.many_lights = lights_->base().size() > max_lights_of_short_passes;
+  options_.shading.split_targets = setup.shading.targets == ShadingTargets::split;
+  options_.shading.shadow_maps = setup.shading.shadow_maps;
+  options_.shading.shadow_map_size = setup.shading.shadow_map_size;
+  options_.shading.compute_lists = setup.shading.list_queue == ListQueue::compute;
   if (setup.shading.light_fetch != LightFetch::automatic)
-    effects_.texel_fetch = setup.shading.light_fetch == LightFetch::texel;
-  effects_.test_ahead = setup.shading.test_ahead;
+    options_.shading.texel_fetch = setup.shading.light_fetch == LightFetch::texel;
+  options_.shading.test_ahead = setup.shading.test_ahead;
   frames_ = std::make_unique<FrameSequence>(*scene_, *lights_, path_, setup.camera.frames, setup.width,
-                                            setup.height, threads_, effects_.shapes());
+                                            setup.height, threads_, options_.effects.shapes());
 }
 
 }  // namespace ml

@@ -20,14 +20,14 @@ class Workload {
   const LightSet& lights() const { return *lights_; }
   const CameraPath& path() const { return path_; }
   // What the content calls for, less what the configuration forces off.
-  const Effects& effects() const { return effects_; }
+  const FrameOptions& options() const { return options_; }
   FrameSequence& frames() { return *frames_; }
 
  private:
   std::shared_ptr<const Scene> scene_;
   std::unique_ptr<LightSet> lights_;
   CameraPath path_;
-  Effects effects_;
+  FrameOptions options_;
   Threads threads_;
   std::unique_ptr<FrameSequence> frames_;
 };

@@ -5,6 +5,7 @@
 
 #include "harness/cli/commands.h"
 #include "harness/config/config.h"
+#include "harness/frame/frame_options.h"
 #include "harness/gpu/device.h"
 
 namespace ml {
@@ -53,48 +54,12 @@ const std::vector<Row>& metrics() {
   return rows;
 }
 
-const std::vector<Row>& effects() {
-  static const std::vector<Row> rows{
-      {"omni", "point lights; always there"},
-      {"spot", "cones; compiled in when a light of the scene is a spot (effects.spots: auto | off)"},
-      {"capsule", "omni lights with a length; when the scene has one (effects.capsules: auto | off)"},
-      {"wedge", "spots with a length; when the scene has one (effects.wedges: auto | off)"},
-      {"box", "windows with six faces; when the scene has one (effects.boxes: auto | off)"},
-      {"probe",
-       "ambient light in a light's volume; when the scene has such lights (effects.probes: auto | off)"},
-      {"specular", "GGX highlights (effects.specular: auto | off)"},
-      {"alpha_mask",
-       "cut-out materials; when a material of the scene has a mask (effects.alpha_mask: auto | off)"},
-      {"forward",
-       "materials lit in a forward pass; when a material of the scene is one (effects.forward: auto | off)"},
-      {"material_detail",
-       "vertex colours, metallic-roughness textures and normal maps; when a mesh of the scene has some "
-       "(effects.material_detail: auto | off)"},
-      {"emission",
-       "surfaces that give light by themselves, added once a pixel; when a material of the scene does "
-       "(effects.emission: auto | off)"},
-      {"clip_far", "surfaces beyond the camera's far plane are not seen; when a file's zfar cuts its level"},
-      {"motion", "meshes are drawn where animated nodes carry them; when the file has some"},
-      {"split_targets",
-       "diffuse and specular light written apart and put together by a composite pass (shading.targets: one "
-       "| split)"},
-      {"shadow_maps",
-       "depth-only pictures from the largest lights, which light nothing: work for list building to run "
-       "beside (shading.shadow_maps: 0 to 16, shading.shadow_map_size)"},
-      {"compute_lists",
-       "lists that the device builds are built on its second queue, beside the shadow maps "
-       "(shading.list_queue: graphics | compute)"},
-      {"texel_fetch",
-       "lights, trees' nodes and cells read four words at a time, through texel buffers; on software devices "
-       "(shading.light_fetch: auto | storage | texel)"},
-      {"test_ahead",
-       "subgroups that walk together test batches of lights until one has a light that contributes, and "
-       "shade "
-       "then (shading.test_ahead: false | true)"},
-      {"long_lists",
-       "passes over all lights take several an iteration: more than 28,000 lights on a driver that ends "
-       "loops"},
-  };
+std::vector<Row> effects() {
+  std::vector<Row> rows{{"omni", "point lights; always there"}};
+  for (const EffectInfo& info : effect_table)
+    rows.push_back({info.name, info.key ? fmt::format("{} (effects.{}: auto | off)", info.help, info.key)
+                                        : std::string(info.help)});
+  for (const ShadingOptionInfo& info : shading_option_table()) rows.push_back({info.name, info.help});
   return rows;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "algorithms/algorithm.h"
+#include "harness/scene/effects.h"
 #include "harness/scene/light_set.h"
 #include "harness/scene/scene.h"
 
@@ -36,20 +37,6 @@ struct OutputSpec {
   std::vector<uint32_t> heatmaps;  // frame numbers
   std::vector<uint32_t> images;    // frame numbers
   bool trace = true;               // Chrome/Perfetto trace of the spans
-};
-
-// "auto": found from the scene's content; "off": forced off. (design: Effects)
-struct EffectsSpec {
-  bool spots = true;
-  bool capsules = true;
-  bool wedges = true;
-  bool boxes = true;
-  bool probes = true;
-  bool specular = true;
-  bool alpha_mask = true;
-  bool forward = true;
-  bool material_detail = true;
-  bool emission = true;
 };
 
 // Where the shading pass writes: the finished light, or diffuse and specular light apart, to be put together
@@ -86,7 +73,7 @@ struct Setup {
   LightSpec lights;
   CameraSpec camera;
   uint32_t width = 960, height = 540;  // px, [1, 16384] each
-  EffectsSpec effects;
+  Effects effects = all_effects();     // those that are allowed: auto, and not off
   ShadingSpec shading;
   std::vector<AlgorithmSpec> algorithms;
 };

@@ -259,30 +259,23 @@ std::span<const Field<CameraSpec>> camera_fields() {
   return fields;
 }
 
-std::span<const Field<EffectsSpec>> effects_fields() {
-  using E = EffectsSpec;
-  static constexpr auto fields = std::to_array<Field<E>>({
-      {"spots", [](const Node& n, E& e) { e.spots = read_auto_off(n); },
-       [](const E& e) { return write_auto_off(e.spots); }},
-      {"capsules", [](const Node& n, E& e) { e.capsules = read_auto_off(n); },
-       [](const E& e) { return write_auto_off(e.capsules); }},
-      {"wedges", [](const Node& n, E& e) { e.wedges = read_auto_off(n); },
-       [](const E& e) { return write_auto_off(e.wedges); }},
-      {"boxes", [](const Node& n, E& e) { e.boxes = read_auto_off(n); },
-       [](const E& e) { return write_auto_off(e.boxes); }},
-      {"probes", [](const Node& n, E& e) { e.probes = read_auto_off(n); },
-       [](const E& e) { return write_auto_off(e.probes); }},
-      {"specular", [](const Node& n, E& e) { e.specular = read_auto_off(n); },
-       [](const E& e) { return write_auto_off(e.specular); }},
-      {"alpha_mask", [](const Node& n, E& e) { e.alpha_mask = read_auto_off(n); },
-       [](const E& e) { return write_auto_off(e.alpha_mask); }},
-      {"forward", [](const Node& n, E& e) { e.forward = read_auto_off(n); },
-       [](const E& e) { return write_auto_off(e.forward); }},
-      {"material_detail", [](const Node& n, E& e) { e.material_detail = read_auto_off(n); },
-       [](const E& e) { return write_auto_off(e.material_detail); }},
-      {"emission", [](const Node& n, E& e) { e.emission = read_auto_off(n); },
-       [](const E& e) { return write_auto_off(e.emission); }},
-  });
+// One for each effect of the table that can be switched off.
+template <size_t... rows>
+std::vector<Field<Effects>> make_effects_fields(std::index_sequence<rows...>) {
+  std::vector<Field<Effects>> fields;
+  const auto add = [&](const char* key, auto read, auto write) {
+    if (key) fields.push_back({key, read, write});
+  };
+  (add(
+       effect_table[rows].key, [](const Node& n, Effects& e) { e.*effect_table[rows].on = read_auto_off(n); },
+       [](const Effects& e) { return write_auto_off(e.*effect_table[rows].on); }),
+   ...);
+  return fields;
+}
+
+std::span<const Field<Effects>> effects_fields() {
+  static const std::vector<Field<Effects>> fields =
+      make_effects_fields(std::make_index_sequence<effect_table.size()>());
   return fields;
 }
 

@@ -19,7 +19,7 @@ struct Field {
 std::span<const Field<SceneSpec>> scene_fields();
 std::span<const Field<LightSpec>> light_fields();
 std::span<const Field<CameraSpec>> camera_fields();
-std::span<const Field<EffectsSpec>> effects_fields();
+std::span<const Field<Effects>> effects_fields();
 std::span<const Field<ShadingSpec>> shading_fields();
 std::span<const Field<MeasureSpec>> measure_fields();
 std::span<const Field<OutputSpec>> output_fields();

@@ -35,7 +35,7 @@ CalibrationPasses::CalibrationPasses(gpu::Device& device)
       commands_(device),
       compute_(device, calibrate_comp, "calibration"),
       sink_(device, threads * sizeof(uint32_t), gpu::MemoryKind::device, "calibration"),
-      level_(device, curtain(), Effects{}),
+      level_(device, curtain(), FrameOptions{.many_lights = false}),
       targets_(device, side, side),
       view_(device, sizeof(gpu_data::ViewData), gpu::MemoryKind::upload, "calibration view") {
   Camera camera;

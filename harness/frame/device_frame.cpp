@@ -36,11 +36,11 @@ struct DeviceFrame::ContributingPasses {
   gpu::UploadBuffer offsets;
   std::unique_ptr<gpu::Buffer> indices;
 
-  ContributingPasses(gpu::Device& device, const Effects& effects, uint32_t width, uint32_t height)
-      : bounds(device, contributing_bounds, "contributing: bounds", effects.constants(device)),
-        masks(device, contributing_masks, "contributing: masks", effects.constants(device)),
-        count(device, contributing_count, "contributing: count", effects.constants(device)),
-        fill(device, contributing_fill, "contributing: fill", effects.constants(device)),
+  ContributingPasses(gpu::Device& device, const FrameOptions& options, uint32_t width, uint32_t height)
+      : bounds(device, contributing_bounds, "contributing: bounds", options.constants(device)),
+        masks(device, contributing_masks, "contributing: masks", options.constants(device)),
+        count(device, contributing_count, "contributing: count", options.constants(device)),
+        fill(device, contributing_fill, "contributing: fill", options.constants(device)),
         count_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage,
                     "contributing counts"),
         hash_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage,
@@ -59,26 +59,28 @@ struct DeviceFrame::ContributingPasses {
   }
 };
 
-DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const Effects& effects, uint32_t width,
+DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const FrameOptions& options, uint32_t width,
                          uint32_t height)
     : device_(device),
-      effects_(effects),
-      level_(device, scene, effects),
-      targets_(device, width, height, effects.forward, effects.split_targets, effects.emission),
+      options_(options),
+      level_(device, scene, options),
+      targets_(device, width, height, options.effects.forward, options.shading.split_targets,
+               options.effects.emission),
       commands_(device),
       view_(device, sizeof(gpu_data::ViewData), gpu::MemoryKind::upload, "view"),
       lights_(device, "lights"),
       extras_(device, "light extras"),
       seen_blocks_(device, width, height),
-      passes_(std::make_unique<ContributingPasses>(device, effects, width, height)) {
-  if (effects.shadow_maps)
-    shadow_maps_ = std::make_unique<ShadowMaps>(device, effects.shadow_maps, effects.shadow_map_size);
+      passes_(std::make_unique<ContributingPasses>(device, options, width, height)) {
+  if (options.shading.shadow_maps)
+    shadow_maps_ =
+        std::make_unique<ShadowMaps>(device, options.shading.shadow_maps, options.shading.shadow_map_size);
 }
 
 DeviceFrame::~DeviceFrame() = default;
 
 void DeviceFrame::load(const FrameInput& input) {
-  if (effects_.fetches_texels(device_))
+  if (options_.fetches_texels(device_))
     require_texels(device_.limits(), fmt::format("{} lights", input.lights.count()),
                    std::max(input.lights.core.size_bytes(), input.lights.extra.size_bytes()));
   std::memcpy(view_.mapped().data(), &input.view, sizeof input.view);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "algorithms/algorithm.h"
-#include "harness/frame/effects.h"
+#include "harness/frame/frame_options.h"
 #include "harness/frame/level.h"
 #include "harness/frame/seen_blocks.h"
 #include "harness/frame/shadow_maps.h"
@@ -25,7 +25,7 @@ struct ContributingLights {
 
 class DeviceFrame {
  public:
-  DeviceFrame(gpu::Device& device, const Scene& scene, const Effects& effects, uint32_t width,
+  DeviceFrame(gpu::Device& device, const Scene& scene, const FrameOptions& options, uint32_t width,
               uint32_t height);
   ~DeviceFrame();
 
@@ -47,7 +47,7 @@ class DeviceFrame {
   const FrameTargets& targets() const { return targets_; }
   const CounterTargets& counters();
   void clear_counters();  // records it; they must be there
-  const Effects& effects() const { return effects_; }
+  const FrameOptions& options() const { return options_; }
   // The resources that every shading pass may bind.
   gpu::Bindings bindings() const;
   const gpu::Buffer& view() const { return view_; }
@@ -78,7 +78,7 @@ class DeviceFrame {
   void clear_results();  // records it
 
   gpu::Device& device_;
-  Effects effects_;
+  FrameOptions options_;
   Level level_;
   FrameTargets targets_;
   std::unique_ptr<CounterTargets> counters_;

@@ -52,52 +52,53 @@ gpu::RasterState vertex_state() {
 }
 
 // Levels with more than base colours need programs that read more of a vertex and of a material.
-bool is_detailed(const Effects& effects) {
-  return effects.material_detail || effects.emission;
+bool is_detailed(const FrameOptions& options) {
+  return options.effects.material_detail || options.effects.emission;
 }
 
 using Module = std::span<const uint32_t>;
 
-Module gbuffer_vertex(const Effects& effects) {
-  if (is_detailed(effects))
-    return effects.motion ? Module(gbuffer_detailed_moving_vert) : Module(gbuffer_detailed_vert);
-  return effects.motion ? Module(gbuffer_moving_vert) : Module(gbuffer_vert);
+Module gbuffer_vertex(const FrameOptions& options) {
+  if (is_detailed(options))
+    return options.effects.motion ? Module(gbuffer_detailed_moving_vert) : Module(gbuffer_detailed_vert);
+  return options.effects.motion ? Module(gbuffer_moving_vert) : Module(gbuffer_vert);
 }
 
-std::span<const uint32_t> gbuffer_fragment(const Effects& effects) {
-  if (effects.emission)
-    return effects.forward ? std::span<const uint32_t>(gbuffer_emission_forward_frag)
-                           : std::span<const uint32_t>(gbuffer_emission_frag);
-  if (effects.material_detail)
-    return effects.forward ? std::span<const uint32_t>(gbuffer_detailed_forward_frag)
-                           : std::span<const uint32_t>(gbuffer_detailed_frag);
-  return effects.forward ? std::span<const uint32_t>(gbuffer_forward_frag)
-                         : std::span<const uint32_t>(gbuffer_frag);
+std::span<const uint32_t> gbuffer_fragment(const FrameOptions& options) {
+  if (options.effects.emission)
+    return options.effects.forward ? std::span<const uint32_t>(gbuffer_emission_forward_frag)
+                                   : std::span<const uint32_t>(gbuffer_emission_frag);
+  if (options.effects.material_detail)
+    return options.effects.forward ? std::span<const uint32_t>(gbuffer_detailed_forward_frag)
+                                   : std::span<const uint32_t>(gbuffer_detailed_frag);
+  return options.effects.forward ? std::span<const uint32_t>(gbuffer_forward_frag)
+                                 : std::span<const uint32_t>(gbuffer_frag);
 }
 
 std::unique_ptr<gpu::RasterProgram> gbuffer_program(gpu::Device& device, bool masked,
-                                                    const Effects& effects) {
+                                                    const FrameOptions& options) {
   gpu::RasterState state = vertex_state();
   state.colors = {gpu::Format::rg32_uint};
-  if (effects.forward) state.colors.push_back(gpu::Format::r32_uint);
-  if (effects.emission) state.colors.push_back(gpu::Format::rgba32_float);
+  if (options.effects.forward) state.colors.push_back(gpu::Format::r32_uint);
+  if (options.effects.emission) state.colors.push_back(gpu::Format::rgba32_float);
   return std::make_unique<gpu::RasterProgram>(
-      device, gbuffer_vertex(effects), gbuffer_fragment(effects), masked ? "gbuffer (alpha mask)" : "gbuffer",
-      state, gpu::Constants{{"EFFECT_ALPHA_MASK", masked}, {"EFFECT_CLIP_FAR", effects.clip_far}});
+      device, gbuffer_vertex(options), gbuffer_fragment(options), masked ? "gbuffer (alpha mask)" : "gbuffer",
+      state, gpu::Constants{{"EFFECT_ALPHA_MASK", masked}, {"EFFECT_CLIP_FAR", options.effects.clip_far}});
 }
 
 // Opaque triangles need no fragment shader, and of a vertex its position alone.
-std::unique_ptr<gpu::RasterProgram> depth_program(gpu::Device& device, bool masked, const Effects& effects) {
+std::unique_ptr<gpu::RasterProgram> depth_program(gpu::Device& device, bool masked,
+                                                  const FrameOptions& options) {
   gpu::RasterState state;
   state.vertex_stride = sizeof(Vertex);
   state.attributes = {{offsetof(Vertex, position), 3}};
-  const bool moving = effects.motion;
+  const bool moving = options.effects.motion;
   if (!masked)
     return std::make_unique<gpu::RasterProgram>(device, moving ? Module(shadow_moving_vert) : shadow_vert,
                                                 Module{}, "shadow map", state);
   state.attributes.push_back({offsetof(Vertex, uv), 2});
   const std::string name = "shadow map (alpha mask)";
-  if (is_detailed(effects))
+  if (is_detailed(options))
     return std::make_unique<gpu::RasterProgram>(
         device, moving ? Module(shadow_masked_detailed_moving_vert) : shadow_masked_detailed_vert,
         shadow_masked_detailed_frag, name, state);
@@ -106,18 +107,7 @@ std::unique_ptr<gpu::RasterProgram> depth_program(gpu::Device& device, bool mask
                                               shadow_masked_frag, name, state);
 }
 
-// What is drawn with it: nothing where no triangle has it.
-bool any_drawn(const Scene& scene, const std::function<bool(const Material&)>& has) {
-  return std::any_of(scene.draws.begin(), scene.draws.end(), [&](const Draw& draw) {
-    return draw.index_count > 0 && has(scene.materials[draw.material]);
-  });
-}
-
-bool has_normal_map(const Material& material) {
-  return material.normal_texture >= 0 && material.normal_scale != 0;
-}
-
-gpu_data::MaterialData material_data(const Material& material, const Effects& effects,
+gpu_data::MaterialData material_data(const Material& material, const FrameOptions& options,
                                      uint32_t details_layout) {
   gpu_data::MaterialData data{};
   data.base_color = material.base_color;
@@ -126,7 +116,7 @@ gpu_data::MaterialData material_data(const Material& material, const Effects& ef
   data.alpha_cutoff = material.alpha_cutoff;
   data.double_sided = material.double_sided;
   data.details = details_layout;
-  if (effects.material_detail) {
+  if (options.effects.material_detail) {
     data.details |= ML_DETAIL_MATERIAL_BIT;
     if (has_normal_map(material)) data.details |= ML_DETAIL_NORMAL_BIT;
   }
@@ -137,36 +127,16 @@ gpu_data::MaterialData material_data(const Material& material, const Effects& ef
 
 }  // namespace
 
-bool Level::has_masked_material(const Scene& scene) {
-  return std::any_of(scene.draws.begin(), scene.draws.end(), [&](const Draw& draw) {
-    return scene.materials[draw.material].alpha_mode == AlphaMode::mask;
-  });
-}
-
-bool Level::has_forward_material(const Scene& scene) {
-  return any_drawn(scene, [](const Material& material) { return material.forward; });
-}
-
-bool Level::has_material_detail(const Scene& scene) {
-  return !scene.details.colors.empty() || any_drawn(scene, [](const Material& material) {
-    return material.metallic_roughness_texture >= 0 || has_normal_map(material);
-  });
-}
-
-bool Level::has_emission(const Scene& scene) {
-  return any_drawn(scene, [](const Material& material) { return material.emission != glm::vec3(0); });
-}
-
-Level::Level(gpu::Device& device, const Scene& scene, const Effects& effects)
+Level::Level(gpu::Device& device, const Scene& scene, const FrameOptions& options)
     : commands_(device),
       vertices_(filled(device, commands_, scene.vertices, "vertices")),
       indices_(filled(device, commands_, scene.indices, "indices")) {
-  if (effects.forward && !device.limits().fragment_triangles)
+  if (options.effects.forward && !device.limits().fragment_triangles)
     throw SystemError("forward materials: '" + device.info().name +
                       "' does not number triangles in fragment shaders (geometryShader); "
                       "effects.forward=off lights them deferred");
   uint32_t layout = 0;
-  if (is_detailed(effects)) {
+  if (is_detailed(options)) {
     PackedDetails packed = packed_details(scene.details, scene.vertices.size());
     layout = packed.layout;
     details_.emplace(filled(device, commands_, packed.words, "details of vertices"));
@@ -180,35 +150,35 @@ Level::Level(gpu::Device& device, const Scene& scene, const Effects& effects)
     DrawItem item{draw.first_index,
                   draw.index_count,
                   material.double_sided,
-                  effects.alpha_mask && material.alpha_mode == AlphaMode::mask,
-                  effects.forward && material.forward,
+                  options.effects.alpha_mask && material.alpha_mode == AlphaMode::mask,
+                  options.effects.forward && material.forward,
                   texture(true, material.base_color_texture, Use::color),
-                  texture(effects.material_detail, material.metallic_roughness_texture, Use::data),
-                  texture(effects.material_detail, material.normal_texture, Use::data),
-                  texture(effects.emission, material.emission_texture, Use::color),
+                  texture(options.effects.material_detail, material.metallic_roughness_texture, Use::data),
+                  texture(options.effects.material_detail, material.normal_texture, Use::data),
+                  texture(options.effects.emission, material.emission_texture, Use::color),
                   {}};
-    gpu_data::MaterialData data = material_data(material, effects, layout);
+    gpu_data::MaterialData data = material_data(material, options, layout);
     data.forward_triangle = item.forward ? 1 + draw.first_index / 3 : 0;
-    item.push.resize(sizeof data + (effects.motion ? sizeof(gpu_data::MotionData) : 0));
+    item.push.resize(sizeof data + (options.effects.motion ? sizeof(gpu_data::MotionData) : 0));
     std::memcpy(item.push.data(), &data, sizeof data);
-    if (effects.motion) {
+    if (options.effects.motion) {
       if (draw.motion >= 0) item.motion = scene.draw_motions[static_cast<size_t>(draw.motion)];
       set_pose(item, DrawPose());
     }
     items_.push_back(std::move(item));
   }
-  if (effects.motion) {
+  if (options.effects.motion) {
     motions_ = scene.motions;
     motion_center_ = scene.motion_center;
     move_to(motions_->begin());
   }
   bool any_masked =
       std::any_of(items_.begin(), items_.end(), [](const DrawItem& item) { return item.masked; });
-  opaque_ = gbuffer_program(device, false, effects);
-  if (any_masked) masked_ = gbuffer_program(device, true, effects);
-  if (!effects.shadow_maps) return;
-  depth_opaque_ = depth_program(device, false, effects);
-  if (any_masked) depth_masked_ = depth_program(device, true, effects);
+  opaque_ = gbuffer_program(device, false, options);
+  if (any_masked) masked_ = gbuffer_program(device, true, options);
+  if (!options.shading.shadow_maps) return;
+  depth_opaque_ = depth_program(device, false, options);
+  if (any_masked) depth_masked_ = depth_program(device, true, options);
 }
 
 void Level::set_pose(DrawItem& item, const DrawPose& pose) {
@@ -267,12 +237,12 @@ void Level::record_depth(gpu::Commands& commands, const gpu::Buffer& view, const
 }
 
 gpu::RasterProgram Level::forward_program(gpu::Device& device, std::span<const uint32_t> fragment,
-                                          const std::string& name, const Effects& effects,
+                                          const std::string& name, const FrameOptions& options,
                                           const gpu::Constants& constants) {
   gpu::RasterState state = vertex_state();
   state.colors = {gpu::Format::rgba32_float};
   state.at_equal_depth = true;
-  return {device, gbuffer_vertex(effects), fragment, name, state, constants};
+  return {device, gbuffer_vertex(options), fragment, name, state, constants};
 }
 
 void Level::record_forward(gpu::Commands& commands, const gpu::RasterProgram& program,

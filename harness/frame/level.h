@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "harness/frame/effects.h"
+#include "harness/frame/frame_options.h"
 #include "harness/frame/level_textures.h"
 #include "harness/frame/targets.h"
 #include "harness/gpu/commands.h"
@@ -21,11 +21,11 @@ class Level {
   // metallic-roughness and normal textures, surfaces give no light; without shadow maps record_depth() will
   // not be asked for. Throws SystemError when the device cannot hold the level, or cannot draw forward
   // materials.
-  Level(gpu::Device& device, const Scene& scene, const Effects& effects);
+  Level(gpu::Device& device, const Scene& scene, const FrameOptions& options);
 
   // A program of the forward pass; `fragment` is ShadeShaders::forward or its counting twin.
   static gpu::RasterProgram forward_program(gpu::Device& device, std::span<const uint32_t> fragment,
-                                            const std::string& name, const Effects& effects,
+                                            const std::string& name, const FrameOptions& options,
                                             const gpu::Constants& constants);
   // Draws what is lit forward into the result, over what is there; `bindings` is what the shading loop binds.
   void record_forward(gpu::Commands& commands, const gpu::RasterProgram& program,
@@ -40,15 +40,6 @@ class Level {
 
   // Draws everything into a depth picture alone, as `view` sees it.
   void record_depth(gpu::Commands& commands, const gpu::Buffer& view, const gpu::Image& depth) const;
-
-  // Whether any material of the scene needs the alpha-masked program.
-  static bool has_masked_material(const Scene& scene);
-  // Whether any triangle of the scene is to be lit forward.
-  static bool has_forward_material(const Scene& scene);
-  // Whether any triangle of the scene has vertex colours, a metallic-roughness texture or a normal map.
-  static bool has_material_detail(const Scene& scene);
-  // Whether any triangle of the scene gives light by itself.
-  static bool has_emission(const Scene& scene);
 
  private:
   gpu::Commands commands_;  // for uploading

@@ -25,26 +25,26 @@ struct BlockRange {
 };
 
 std::unique_ptr<Algorithm> created(gpu::Device& device, const AlgorithmEntry& entry,
-                                   const Parameters& parameters, const Effects& effects) {
+                                   const Parameters& parameters, const FrameOptions& options) {
   bool wants_fp64 = false;
   for (const auto& [name, value] : parameters.values())
     if (const auto* word = std::get_if<std::string>(&value)) wants_fp64 |= *word == "fp64";
   if (wants_fp64 && !device.limits().fp64)
     throw SystemError(entry.info.name + ": '" + device.info().name + "' has no 64-bit floats");
   auto algorithm = entry.create(parameters);
-  algorithm->create_gpu(device, effects.constants(device));
+  algorithm->create_gpu(device, options.constants(device));
   return algorithm;
 }
 
 }  // namespace
 
 ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entry,
-                                 const Parameters& parameters, const Effects& effects)
+                                 const Parameters& parameters, const FrameOptions& options)
     : device_(device),
       entry_(entry),
-      algorithm_(created(device, entry, parameters, effects)),
+      algorithm_(created(device, entry, parameters, options)),
       names_(algorithm_->buffers()),
-      effects_(effects),
+      options_(options),
       together_(algorithm_->walks_together()),
       sampled_blocks_(device, entry.info.name + ": sampled blocks"),
       class_blocks_(device, entry.info.name + ": blocks by class") {
@@ -53,10 +53,10 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
   for (gpu::UploadBuffer& buffer : buffers_) buffer.map(0);
   sampled_blocks_.map(0);
   class_blocks_.map(0);
-  if (effects.split_targets)
+  if (options.shading.split_targets)
     composite_.emplace(device, composite_comp, "composite",
-                       gpu::Constants{{"EFFECT_EMISSION", effects.emission}});
-  if (!effects.forward) return;
+                       gpu::Constants{{"EFFECT_EMISSION", options.effects.emission}});
+  if (!options.effects.forward) return;
   if (!device.limits().fragment_stores)
     throw SystemError("forward materials: '" + device.info().name +
                       "' does not count in fragment shaders (fragmentStoresAndAtomics); "
@@ -68,7 +68,7 @@ const gpu::RasterProgram& ShadedAlgorithm::forward_program(bool counting, bool l
   if (auto found = forward_programs_.find(key); found != forward_programs_.end()) return found->second;
   const ShadeShaders shaders = algorithm_->shade_shaders();
   // Forward materials have their albedo at hand: their light goes to the result at once. Pixels walk alone.
-  gpu::Constants constants = effects_.constants(device_);
+  gpu::Constants constants = options_.constants(device_);
   constants.push_back({"LONG_LISTS", long_walks});
   append(constants, algorithm_->shade_constants());
   append(constants, algorithm_->class_constants(algorithm_->tile_classes().most));
@@ -76,18 +76,18 @@ const gpu::RasterProgram& ShadedAlgorithm::forward_program(bool counting, bool l
       .emplace(key,
                Level::forward_program(device_, counting ? shaders.forward_counting : shaders.forward,
                                       entry_.info.name + (counting ? ": forward, counting" : ": forward"),
-                                      effects_, constants))
+                                      options_, constants))
       .first->second;
 }
 
 const gpu::ComputeProgram& ShadedAlgorithm::program(const Variant& variant) {
   if (auto found = programs_.find(variant); found != programs_.end()) return found->second;
-  gpu::Constants constants = effects_.constants(device_);
+  gpu::Constants constants = options_.constants(device_);
   append(constants, {{"LONG_LISTS", variant.loop.long_walks},
                      {"WALK_TOGETHER", variant.loop.together},
                      {"WALK_RANGES", algorithm_->walks_ranges()},
-                     {"EFFECT_FORWARD", effects_.forward && !variant.sampled},
-                     {"SPLIT_TARGETS", effects_.split_targets && !variant.sampled}});
+                     {"EFFECT_FORWARD", options_.effects.forward && !variant.sampled},
+                     {"SPLIT_TARGETS", options_.shading.split_targets && !variant.sampled}});
   append(constants, algorithm_->shade_constants());
   append(constants, algorithm_->class_constants(variant.tile_class));
   const ShadeShaders shaders = algorithm_->shade_shaders();
@@ -100,7 +100,7 @@ const gpu::ComputeProgram& ShadedAlgorithm::program(const Variant& variant) {
 }
 
 ShadingLoop ShadedAlgorithm::loop_of(const DeviceFrame& frame, const FrameInput& input, bool together) const {
-  if (effects_.long_walks) return {together, true};
+  if (options_.tests.long_walks) return {together, true};
   LongestWalk walk = algorithm_->longest_walk(input);
   if (entry_.info.needs_contributing_lists) {
     const std::vector<uint32_t>& counts = frame.contributing().count;
@@ -108,7 +108,7 @@ ShadingLoop ShadedAlgorithm::loop_of(const DeviceFrame& frame, const FrameInput&
   }
   walk.lights = std::min<uint64_t>(walk.lights, range());
   const gpu::DeviceLimits& limits = device_.limits();
-  return choose_shading_loop(walk, limits.subgroup_size, together, effects_.test_ahead,
+  return choose_shading_loop(walk, limits.subgroup_size, together, options_.shading.test_ahead,
                              limits.loop_iterations);
 }
 
@@ -118,7 +118,7 @@ uint32_t ShadedAlgorithm::range() const {
 }
 
 std::span<std::byte> ShadedAlgorithm::map(uint32_t slot, size_t bytes) {
-  if (effects_.fetches_texels(device_)) require_texels(device_.limits(), buffers_.at(slot).name(), bytes);
+  if (options_.fetches_texels(device_)) require_texels(device_.limits(), buffers_.at(slot).name(), bytes);
   return buffers_.at(slot).map(bytes);
 }
 
@@ -128,7 +128,7 @@ bool ShadedAlgorithm::cached(uint32_t slot) const {
 
 size_t ShadedAlgorithm::limit() const {
   const gpu::DeviceLimits& limits = device_.limits();
-  return effects_.fetches_texels(device_) ? std::min(limits.storage_buffer_range, limits.texel_buffer_bytes)
+  return options_.fetches_texels(device_) ? std::min(limits.storage_buffer_range, limits.texel_buffer_bytes)
                                           : limits.storage_buffer_range;
 }
 
@@ -232,7 +232,7 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
   gpu::Bindings list;
   const auto build = [&] { list = cull(commands, frame, input); };
   const auto other_work = [&] { frame.record_shadow_maps(); };
-  if (effects_.compute_lists && entry_.info.builds_on_gpu()) {
+  if (options_.shading.compute_lists && entry_.info.builds_on_gpu()) {
     commands.fork(build, other_work);
   } else {
     build();
@@ -265,7 +265,7 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
     both.emplace_back("Diffuse", *targets.diffuse);
     commands.dispatch(*composite_, both, std::span<const std::byte>{}, across, down);
   }
-  if (!effects_.forward) return;
+  if (!options_.effects.forward) return;
   auto span = commands.span("forward");
   frame.record_forward(forward_program(counting, loop_of(frame, input, false).long_walks), list);
 }

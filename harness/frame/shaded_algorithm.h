@@ -17,7 +17,7 @@ class ShadedAlgorithm final : private UploadMemory {
  public:
   // Throws SystemError when the device refuses a program or cannot hold a buffer.
   ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entry, const Parameters& parameters,
-                  const Effects& effects);
+                  const FrameOptions& options);
 
   // CPU: lists of the frame into mapped memory. Spans of the algorithm's stages. `blocks`: the 8x8 px blocks
   // that will be shaded, in their order: those of the frame that is loaded (SeenBlocks).
@@ -78,7 +78,7 @@ class ShadedAlgorithm final : private UploadMemory {
   std::unique_ptr<Algorithm> algorithm_;
   std::vector<std::string> names_;
   std::deque<gpu::UploadBuffer> buffers_;
-  Effects effects_;
+  FrameOptions options_;
   bool together_;
   gpu::UploadBuffer sampled_blocks_;
   // The blocks of each class one after the other; class c's are [block_ends_[c - 1], block_ends_[c]). Not in

@@ -22,8 +22,8 @@ class Materials : public DeviceTest {
     }
   };
   // A picture of `side` x `side` px of what lies in -1..1 at z = 0, seen from +z.
-  static View look(const Scene& scene, const Effects& effects, uint32_t side, bool from_behind = false) {
-    DeviceFrame frame(device(), scene, effects, side, side);
+  static View look(const Scene& scene, const FrameOptions& options, uint32_t side, bool from_behind = false) {
+    DeviceFrame frame(device(), scene, options, side, side);
     FrameInput input;
     const double eye = from_behind ? -5 : 5;
     input.view = view_data(Camera::look_at({0, 0, eye}, {0, 0, 0}, Projection::orthographic(1, 1, 0.1f, 20)),
@@ -31,12 +31,12 @@ class Materials : public DeviceTest {
     frame.load(input);
     using Aov = DeviceFrame::Aov;
     View view{frame.read_aov(Aov::normal), frame.read_aov(Aov::albedo), frame.read_aov(Aov::material), {}};
-    if (effects.emission) view.emission = frame.read_aov(Aov::emission);
+    if (options.effects.emission) view.emission = frame.read_aov(Aov::emission);
     return view;
   }
 };
 
-const Effects detailed{.material_detail = true};
+const FrameOptions detailed{.effects = {.material_detail = true}};
 
 Texture texel(uint8_t r, uint8_t g, uint8_t b) {
   return {"texel", 1, 1, {r, g, b, 255}};
@@ -58,14 +58,14 @@ TEST_F(Materials, VertexColorsMultiplyTheBaseColor) {
   material.base_color = {0.5f, 1, 1, 1};
   material.alpha_mode = AlphaMode::mask;
   Scene scene = square(material, {});
-  EXPECT_FALSE(Level::has_material_detail(scene));
+  EXPECT_FALSE(content::has_material_detail({scene, {}, CameraPath()}));
   for (const Vertex& vertex : scene.vertices)
     scene.details.colors.emplace_back(1, vertex.position.x > 0 ? 1 : 0, 0.25f, vertex.position.y > 0 ? 1 : 0);
-  EXPECT_TRUE(Level::has_material_detail(scene));
+  EXPECT_TRUE(content::has_material_detail({scene, {}, CameraPath()}));
   constexpr uint32_t side = 16;
-  Effects effects = detailed;
-  effects.alpha_mask = true;
-  const View view = look(scene, effects, side), off = look(scene, {.alpha_mask = true}, side);
+  FrameOptions options = detailed;
+  options.effects.alpha_mask = true;
+  const View view = look(scene, options, side), off = look(scene, {.alpha_mask = true}, side);
   for (uint32_t x = 0; x < side; ++x) {
     const size_t top = x, bottom = size_t{side - 1} * side + x;
     EXPECT_NEAR(View::three(view.albedo, top).x, 0.5, 0.005);
@@ -130,9 +130,9 @@ TEST_F(Materials, EveryTextureIsReadWhereItsOwnCoordinatesSay) {
     scene.details.metallic_roughness_uv.emplace_back(0.75f, 0);
     scene.details.emission_uv.emplace_back(0.5f * (vertex.position.x + 1), 0);
   }
-  Effects effects = detailed;
-  effects.emission = true;
-  const View view = look(scene, effects, 8);
+  FrameOptions options = detailed;
+  options.effects.emission = true;
+  const View view = look(scene, options, 8);
   EXPECT_NEAR(View::three(view.albedo, 0).x, 1, 0.005);
   EXPECT_EQ(View::three(view.material, 0), glm::dvec3(0));
   EXPECT_EQ(View::three(view.emission, 0), glm::dvec3(1));
@@ -217,13 +217,14 @@ Scene glowing_yard() {
 TEST_F(Materials, EmissionComesOnTopOfEveryAlgorithmsLightOnceAndCountsNothing) {
   constexpr uint32_t width = 93, height = 61;
   const Scene scene = glowing_yard();
-  ASSERT_TRUE(Level::has_emission(scene) && Level::has_material_detail(scene) &&
-              Level::has_forward_material(scene));
+  ASSERT_TRUE(content::has_emission({scene, {}, CameraPath()}) &&
+              content::has_material_detail({scene, {}, CameraPath()}) &&
+              content::has_forward_materials({scene, {}, CameraPath()}));
   const Camera camera = camera_at({-3, 5, 22}, {-2, 1, 0}, width, height);
   const std::vector<Light> lights = scattered(60, {-25, 0, -20}, {25, 7, 18}, 1, 12, 3);
-  Effects effects = all_shapes();
-  effects.material_detail = true;
-  Exactness dark(scene, width, height, effects);
+  FrameOptions options = all_shapes();
+  options.effects.material_detail = true;
+  Exactness dark(scene, width, height, options);
   const Seen plain = dark.expect_trials(camera, lights, {}, 20);
   std::vector<float> emission;
   const bool can_forward = device().limits().fragment_triangles && device().limits().fragment_stores;
@@ -231,10 +232,10 @@ TEST_F(Materials, EmissionComesOnTopOfEveryAlgorithmsLightOnceAndCountsNothing) 
     for (const bool split : {false, true}) {
       SCOPED_TRACE(testing::Message() << "forward " << forward << ", split " << split);
       if (forward && !can_forward) continue;
-      effects.emission = true;
-      effects.forward = forward;
-      effects.split_targets = split;
-      Exactness lit(scene, width, height, effects);
+      options.effects.emission = true;
+      options.effects.forward = forward;
+      options.shading.split_targets = split;
+      Exactness lit(scene, width, height, options);
       const Seen seen = lit.expect_trials(
           camera, lights, forward == can_forward && split ? every_algorithm() : std::vector<Trial>{}, 20);
       if (emission.empty()) emission = lit.frame().read_aov(DeviceFrame::Aov::emission);
@@ -259,8 +260,8 @@ TEST_F(Materials, EmissionComesOnTopOfEveryAlgorithmsLightOnceAndCountsNothing) 
 TEST_F(Materials, LevelsWithoutEmissionHaveNoPictureForIt) {
   DeviceFrame frame(device(), yard(), {}, 8, 8);
   EXPECT_FALSE(frame.targets().emission.has_value());
-  EXPECT_FALSE(Level::has_emission(yard()));
-  EXPECT_FALSE(Level::has_material_detail(yard()));
+  EXPECT_FALSE(content::has_emission({yard(), {}, CameraPath()}));
+  EXPECT_FALSE(content::has_material_detail({yard(), {}, CameraPath()}));
 }
 
 }  // namespace

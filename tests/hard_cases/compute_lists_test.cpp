@@ -29,14 +29,14 @@ Scene mixed_yard() {
   return scene;
 }
 
-Effects effects_of(bool compute, uint32_t maps, bool split, bool forward) {
-  Effects effects = all_shapes();
-  effects.split_targets = split;
-  effects.forward = forward;
-  effects.shadow_maps = maps;
-  effects.shadow_map_size = 64;
-  effects.compute_lists = compute;
-  return effects;
+FrameOptions options_of(bool compute, uint32_t maps, bool split, bool forward) {
+  FrameOptions options = all_shapes();
+  options.shading.split_targets = split;
+  options.effects.forward = forward;
+  options.shading.shadow_maps = maps;
+  options.shading.shadow_map_size = 64;
+  options.shading.compute_lists = compute;
+  return options;
 }
 
 Camera camera() {
@@ -61,7 +61,7 @@ TEST_F(ComputeLists, AreThoseOfTheGraphicsQueueInEveryCombination) {
     for (bool split : {false, true}) {
       if (forward && !lights_forward_materials()) continue;
       SCOPED_TRACE(testing::Message() << (forward ? "forward " : "") << (split ? "split" : "one"));
-      PrunedCheck plain(mixed_yard(), width, height, effects_of(false, 0, split, forward));
+      PrunedCheck plain(mixed_yard(), width, height, options_of(false, 0, split, forward));
       plain.load(camera(), lights());
       std::vector<PrunedRun> expected;
       for (const PrunedSettings& settings : every_way()) expected.push_back(plain.run(settings));
@@ -69,7 +69,7 @@ TEST_F(ComputeLists, AreThoseOfTheGraphicsQueueInEveryCombination) {
         for (uint32_t maps : {0u, 3u}) {
           if (!compute && maps == 0) continue;
           SCOPED_TRACE(testing::Message() << (compute ? "compute, " : "graphics, ") << maps << " maps");
-          PrunedCheck check(mixed_yard(), width, height, effects_of(compute, maps, split, forward));
+          PrunedCheck check(mixed_yard(), width, height, options_of(compute, maps, split, forward));
           check.load(camera(), lights());
           for (size_t i = 0; i < expected.size(); ++i) {
             SCOPED_TRACE(every_way()[i].text());
@@ -89,9 +89,9 @@ TEST_F(ComputeLists, AreThoseOfTheGraphicsQueueInEveryCombination) {
 }
 
 TEST_F(ComputeLists, ChangeNothingForAnyAlgorithm) {
-  Exactness beside(yard(), width, height, effects_of(true, 2, false, false));
+  Exactness beside(yard(), width, height, options_of(true, 2, false, false));
   const Seen seen = beside.expect_trials(camera(), lights(), every_algorithm(), 10);
-  Exactness plain(yard(), width, height, effects_of(false, 0, false, false));
+  Exactness plain(yard(), width, height, options_of(false, 0, false, false));
   const Seen expected = plain.expect_trials(camera(), lights(), every_algorithm(), 0);
   EXPECT_EQ(compare_images(seen.image, expected.image).differing_bits, 0u);
   ASSERT_EQ(seen.counts.size(), expected.counts.size());
@@ -100,7 +100,7 @@ TEST_F(ComputeLists, ChangeNothingForAnyAlgorithm) {
 
 TEST_F(ComputeLists, FollowLightsAndCameraFromFrameToFrame) {
   // Buffers grow, images have just been read or drawn, and the last frame's semaphores are used again.
-  PrunedCheck check(yard(), width, height, effects_of(true, 2, false, false));
+  PrunedCheck check(yard(), width, height, options_of(true, 2, false, false));
   for (uint32_t count : {3u, 400u, 0u, 60u}) {
     SCOPED_TRACE(count);
     check.load(camera_at({-3 + 0.1 * count, 5, 22}, {-2, 1, 0}, width, height),
@@ -114,7 +114,7 @@ TEST_F(ComputeLists, SpansOfBothSidesAreThereAndInTheirPlaces) {
   if (device().limits().second_timestamp_valid_bits == 0)
     GTEST_SKIP() << "the second queue has no timestamps";
   for (bool compute : {false, true}) {
-    PrunedCheck check(yard(), width, height, effects_of(compute, 2, false, false));
+    PrunedCheck check(yard(), width, height, options_of(compute, 2, false, false));
     check.load(camera(), lights());
     ShadedAlgorithm& algorithm = check.algorithm({});
     Spans spans;
@@ -138,10 +138,10 @@ TEST_F(ComputeLists, SpansOfBothSidesAreThereAndInTheirPlaces) {
 }
 
 TEST_F(ShadowMapLoad, NoneAreMadeWithoutTheEffect) {
-  PrunedCheck none(yard(), 32, 32, effects_of(true, 0, false, false));
+  PrunedCheck none(yard(), 32, 32, options_of(true, 0, false, false));
   EXPECT_EQ(none.frame().shadow_maps(), nullptr);
   EXPECT_EQ(none.frame().shadow_map_bytes(), 0u);
-  PrunedCheck four(yard(), 32, 32, effects_of(false, 4, false, false));
+  PrunedCheck four(yard(), 32, 32, options_of(false, 4, false, false));
   EXPECT_EQ(four.frame().shadow_map_bytes(), 4u * 64 * 64 * 4);
 }
 
@@ -159,9 +159,9 @@ TEST_F(ShadowMapLoad, MapsShowTheLevelFromTheLargestLights) {
   // A sheet that is all hole, 1 m below the omni light.
   made.rectangle({-9, 3, 9}, {18, 0, 0}, {0, 0, -18}, hole);
   made.box({-22, 0, -2}, {-18, 1, 2});
-  Effects effects = effects_of(false, 3, false, false);
-  effects.alpha_mask = true;
-  PrunedCheck check(made.finish(), 48, 48, effects);
+  FrameOptions options = options_of(false, 3, false, false);
+  options.effects.alpha_mask = true;
+  PrunedCheck check(made.finish(), 48, 48, options);
   std::vector<Light> two{omni({0, 4, 0}, 9), spot({-20, 8, 0}, 12, {0, -1, 0}, 20, 30), omni({3, 2, 1}, 1)};
   check.load(camera_at({0, 6, 20}, {0, 0, 0}, 48, 48), two);
   Spans spans;

@@ -119,9 +119,9 @@ TEST_F(HardCases, FinePruned_ListsHoldWhatTheTilesPixelsLieIn) {
 TEST_F(HardCases, FinePruned_RegionsChangeNothing) {
   // 3 x 2 regions, most of them partial.
   constexpr uint32_t width = 290, height = 150;
-  Effects effects = all_shapes();
-  effects.probes = true;
-  PrunedCheck check(yard(), width, height, effects);
+  FrameOptions options = all_shapes();
+  options.effects.probes = true;
+  PrunedCheck check(yard(), width, height, options);
   const PrunedSettings ways[] = {
       {}, {"paper"}, {"exact", "coarse", "subgroup", "hull", false}, {"exact", "fine", "pixel", "ball"}};
   for_random_frames(width, height, 6, 16,

@@ -267,9 +267,9 @@ TEST_F(HardCases, FinePruned_ProbeLightsHaveAListOfTheirOwn) {
 
 TEST_F(HardCases, FinePruned_WithoutProbeLightsThereIsOneListATile) {
   constexpr uint32_t width = 40, height = 20, tiles = 6;
-  Effects effects = all_shapes();
-  effects.probes = false;
-  PrunedCheck check(floor_at({0, 0, 0}, 100), width, height, effects);
+  FrameOptions options = all_shapes();
+  options.effects.probes = false;
+  PrunedCheck check(floor_at({0, 0, 0}, 100), width, height, options);
   std::vector<Light> lights;
   for (uint32_t i = 0; i < 30; ++i) lights.push_back(everywhere(i));
   check.load(above_floor(width, height), lights);

@@ -14,11 +14,11 @@ constexpr uint32_t width = 123, height = 77;
 
 class ForwardMaterials : public DeviceTest {};
 
-Effects with_forward(bool forward) {
-  Effects effects = all_shapes();
-  effects.alpha_mask = true;
-  effects.forward = forward;
-  return effects;
+FrameOptions with_forward(bool forward) {
+  FrameOptions options = all_shapes();
+  options.effects.alpha_mask = true;
+  options.effects.forward = forward;
+  return options;
 }
 
 Material forward_material(glm::vec3 colour) {
@@ -122,8 +122,8 @@ TEST_F(ForwardMaterials, DeferredPassLeavesMarkedPixelsOutAndTheForwardPassTouch
 TEST_F(ForwardMaterials, RunWithoutForwardMaterialsHasNoneOfIt) {
   Exactness plain(yard(), 32, 32, all_shapes());
   EXPECT_FALSE(plain.frame().targets().forward.has_value());
-  EXPECT_FALSE(Level::has_forward_material(yard()));
-  EXPECT_TRUE(Level::has_forward_material(tangle()));
+  EXPECT_FALSE(content::has_forward_materials({yard(), {}, CameraPath()}));
+  EXPECT_TRUE(content::has_forward_materials({tangle(), {}, CameraPath()}));
 }
 
 TEST_F(ForwardMaterials, SceneThatIsForwardAltogether) {
@@ -132,11 +132,11 @@ TEST_F(ForwardMaterials, SceneThatIsForwardAltogether) {
   for (Material& material : scene.materials) material.forward = true;
   const Camera camera = camera_at({0, 6, 30}, {0, 1, 0}, width, height);
   const std::vector<Light> many = scattered(120, {-30, 0, -30}, {30, 6, 20}, 1, 12, 5);
-  Effects effects{.spots = true, .forward = true, .long_lists = false};
-  Exactness forward(scene, width, height, effects);
+  FrameOptions options{.effects = {.spots = true, .forward = true}, .many_lights = false};
+  Exactness forward(scene, width, height, options);
   const Seen seen = forward.expect_exact(camera, many);
-  effects.forward = false;
-  Exactness deferred(scene, width, height, effects);
+  options.effects.forward = false;
+  Exactness deferred(scene, width, height, options);
   const Seen plain = deferred.expect_trials(camera, many, {}, 0);
   EXPECT_LE(compare_images(seen.image, plain.image, 1e-6).max_relative, image_tolerance);
 }
@@ -147,7 +147,8 @@ TEST_F(ForwardMaterials, FarFromTheOriginInAnOrthographicPicture) {
   for (size_t i = 1; i < scene.materials.size(); ++i) scene.materials[i].forward = true;
   Camera camera = camera_at({4, 40, 30}, {4, 0, 0}, width, height);
   camera.projection = Projection::orthographic(24, 15, 0.1f, 120);
-  Exactness forward(scene, width, height, {.spots = true, .forward = true, .long_lists = false});
+  Exactness forward(scene, width, height,
+                    {.effects = {.spots = true, .forward = true}, .many_lights = false});
   forward.expect_exact(camera, scattered(90, {-20, 0, -20}, {25, 6, 12}, 1, 10, 6));
 }
 

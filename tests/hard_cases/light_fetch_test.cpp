@@ -12,11 +12,11 @@ constexpr uint32_t width = 91, height = 67;
 
 class LightFetch : public DeviceTest {};
 
-Effects fetched(bool texels, bool long_lists) {
-  Effects effects = all_shapes(long_lists);
-  effects.probes = true;
-  effects.texel_fetch = texels;
-  return effects;
+FrameOptions fetched(bool texels, bool long_lists) {
+  FrameOptions options = all_shapes(long_lists);
+  options.effects.probes = true;
+  options.shading.texel_fetch = texels;
+  return options;
 }
 
 void expect_same(const Seen& one, const Seen& other) {
@@ -50,8 +50,8 @@ TEST_F(LightFetch, ProgramsForSubgroupsOfAnySizeGiveTheSameBits) {
   const Camera camera = camera_at({-3, 5, 22}, {-2, 1, 0}, width, height);
   std::vector<Light> lights = mixed_shapes(300, {-25, 0, -20}, {25, 7, 18}, 1, 12, 3);
   for (size_t i = 0; i < lights.size(); i += 7) lights[i].probe = true;
-  Effects any = fetched(false, false);
-  any.any_subgroup_size = true;
+  FrameOptions any = fetched(false, false);
+  any.tests.any_subgroup_size = true;
   Exactness known(yard(), width, height, fetched(false, false)), unknown(yard(), width, height, any);
   const Seen one = known.expect_trials(camera, lights, every_algorithm(), 12);
   const Seen other = unknown.expect_trials(camera, lights, every_algorithm(), 12);
@@ -65,11 +65,11 @@ TEST_P(TestingAhead, GivesTheSameBits) {
   const Camera camera = camera_at({-3, 5, 22}, {-2, 1, 0}, width, height);
   std::vector<Light> lights = mixed_shapes(900, {-25, 0, -20}, {25, 7, 18}, 0.5, 9, 3);
   for (size_t i = 0; i < lights.size(); i += 7) lights[i].probe = true;
-  Effects effects = fetched(true, GetParam().first);
-  effects.any_subgroup_size = GetParam().second;
-  Exactness batches(yard(), width, height, effects);
-  effects.test_ahead = true;
-  Exactness ahead(yard(), width, height, effects);
+  FrameOptions options = fetched(true, GetParam().first);
+  options.tests.any_subgroup_size = GetParam().second;
+  Exactness batches(yard(), width, height, options);
+  options.shading.test_ahead = true;
+  Exactness ahead(yard(), width, height, options);
   const Seen one = batches.expect_trials(camera, lights, every_algorithm(), 12);
   const Seen other = ahead.expect_trials(camera, lights, every_algorithm(), 12);
   expect_same(one, other);

@@ -120,7 +120,7 @@ TEST_F(HardCases, Case25_CountsAroundTheWidthsOfVectors) {
 }
 
 TEST_F(HardCases, Case25_SixtyFiveThousandLights) {
-  Exactness check(yard(), 16, 9, {.spots = true, .long_lists = true});
+  Exactness check(yard(), 16, 9, {.effects = {.spots = true}, .many_lights = true});
   std::vector<Light> all = scattered(65537, {-30, -1, -40}, {30, 12, 14}, 0.1f, 3, 26);
   for (uint32_t count : {65535u, 65536u, 65537u}) {
     SCOPED_TRACE(testing::Message() << count << " lights");
@@ -133,7 +133,7 @@ TEST_F(HardCases, Case25_SixtyFiveThousandLights) {
 TEST_F(HardCases, Case25_EveryOneOfManyLightsIsReached) {
   // All lights reach all pixels of a floor, so every count must be the number of lights: the references share
   // no loop with this one.
-  Exactness check(floor_at({0, 0, 0}, 100), 8, 8, {.spots = true, .long_lists = true});
+  Exactness check(floor_at({0, 0, 0}, 100), 8, 8, {.effects = {.spots = true}, .many_lights = true});
   const Camera above = camera_at({0, 3, 0}, {0, 0, 0}, 8, 8);
   for (uint32_t count : {1000u, 65535u, 65536u, 65537u, 100000u}) {
     SCOPED_TRACE(testing::Message() << count << " lights");
@@ -144,7 +144,7 @@ TEST_F(HardCases, Case25_EveryOneOfManyLightsIsReached) {
 }
 
 TEST_F(HardCases, Case25_SixtyFiveThousandLightsAtOnePoint) {
-  Exactness check(yard(), 16, 9, {.spots = true, .long_lists = true});
+  Exactness check(yard(), 16, 9, {.effects = {.spots = true}, .many_lights = true});
   // At one point, and so in one tile.
   std::vector<Light> same(65536, omni({0, 1, 6}, 3, 1e-3f));
   Seen seen =

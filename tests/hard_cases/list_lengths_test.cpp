@@ -14,18 +14,17 @@ std::vector<Trial> all_with(const std::vector<GridSettings>& grids) {
 TEST_F(HardCases, Case51_CountsAroundThoseOf8And16BitsInOneFroxel) {
   // Every light reaches every pixel, and all of these lie in the only tile and slice: its list holds them
   // all.
-  Exactness check(floor_at({0, 0, 0}, 100), 6, 4, {.spots = true, .long_lists = true});
+  Exactness check(floor_at({0, 0, 0}, 100), 6, 4, {.effects = {.spots = true}, .many_lights = true});
   const Camera above = camera_at({0, 3, 0}, {0, 0, 0}, 6, 4);
   for (uint32_t count : {255u, 256u, 257u, 65535u, 65536u, 65537u}) {
     SCOPED_TRACE(testing::Message() << count << " lights");
     const std::vector<Light> lights = scattered(count, {-1, 1, -0.6}, {1, 2, 0.6}, 15, 20, 51, 0);
-    const Seen seen = check.expect_trials(
-        above, lights,
-        all_with({{.tile = 16, .slices = 1},
-                  {.tile = 16, .slices = 1, .ball_test = true},
-                  {.tile = 16, .slices = 1, .refinement = true},
-                  {.tile = 16, .slices = 1, .refinement = true}}),
-        1);
+    const Seen seen = check.expect_trials(above, lights,
+                                          all_with({{.tile = 16, .slices = 1},
+                                                    {.tile = 16, .slices = 1, .ball_test = true},
+                                                    {.tile = 16, .slices = 1, .refinement = true},
+                                                    {.tile = 16, .slices = 1, .refinement = true}}),
+                                          1);
     EXPECT_EQ(seen.truth.count, std::vector<uint32_t>(24, count));
   }
 }

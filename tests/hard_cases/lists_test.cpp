@@ -32,14 +32,14 @@ TEST_F(HardCases, Case40_FramesAfterAFrameWithMoreLights) {
 TEST_F(HardCases, Case40_ResolutionChangesBetweenFrames) {
   // One algorithm, its buffers kept, over frames of different size, as a viewer that is resized.
   const Scene scene = yard();
-  const Effects effects{.spots = true, .long_lists = false};
+  const FrameOptions options{.effects = {.spots = true}, .many_lights = false};
   std::vector<Light> lights = scattered(400, {-30, -1, -40}, {30, 12, 14}, 0.2f, 12, 41);
   const AlgorithmEntry& entry = find_algorithm("clustered", "test");
-  ShadedAlgorithm algorithm(device(), entry, Parameters(entry.parameters), effects);
+  ShadedAlgorithm algorithm(device(), entry, Parameters(entry.parameters), options);
   Threads threads;
   for (glm::uvec2 size : {glm::uvec2(64, 36), glm::uvec2(150, 90), glm::uvec2(33, 70), glm::uvec2(64, 36)}) {
     SCOPED_TRACE(testing::Message() << size.x << "x" << size.y);
-    DeviceFrame frame(device(), scene, effects, size.x, size.y);
+    DeviceFrame frame(device(), scene, options, size.x, size.y);
     const Camera camera = camera_at({0, 3, 14}, {0, 1, -10}, size.x, size.y);
     FrameLightStorage storage;
     storage.fill(lights, camera.position);
@@ -104,7 +104,7 @@ TEST_F(HardCases, Case43_ListsOverTheStorageRangeAreAnError) {
 // counted.
 TEST_F(HardCases, Case56_NoLightPastTheCountIsLookedAt) {
   const Camera camera = camera_at({0, 6, 12}, {0, 0, 0}, 24, 16);
-  Exactness check(floor_at({0, 0, 0}, 100), 24, 16, {.spots = true, .long_lists = false});
+  Exactness check(floor_at({0, 0, 0}, 100), 24, 16, {.effects = {.spots = true}, .many_lights = false});
   for (uint32_t count : {1u, 2u, 3u, 5u, 7u, 8u, 9u, 15u, 17u, 31u, 33u, 63u, 64u, 65u, 129u}) {
     SCOPED_TRACE(count);
     // All of them everywhere: lists and batches are full, the last batch is not.

@@ -16,10 +16,10 @@ const AlgorithmEntry& entry() {
 
 }  // namespace
 
-PrunedCheck::PrunedCheck(const Scene& scene, uint32_t width, uint32_t height, const Effects& effects)
-    : frame_(device(), scene, effects, width, height),
+PrunedCheck::PrunedCheck(const Scene& scene, uint32_t width, uint32_t height, const FrameOptions& options)
+    : frame_(device(), scene, options, width, height),
       brute_(device(), find_algorithm("brute_force", "test"),
-             Parameters(find_algorithm("brute_force", "test").parameters), effects) {
+             Parameters(find_algorithm("brute_force", "test").parameters), options) {
   input_.threads = &threads_;
 }
 

@@ -27,7 +27,8 @@ struct PrunedRun {
 
 class PrunedCheck {
  public:
-  PrunedCheck(const Scene& scene, uint32_t width, uint32_t height, const Effects& effects = all_shapes());
+  PrunedCheck(const Scene& scene, uint32_t width, uint32_t height,
+              const FrameOptions& options = all_shapes());
 
   // Uploads a frame and finds what contributes.
   void load(const Camera& camera, const std::vector<Light>& lights);

@@ -30,12 +30,13 @@ class RandomCases : public HardCases, public testing::WithParamInterface<Part> {
 TEST_P(RandomCases, EvaluateTheLightsOfBruteForce) {
   const Part& part = GetParam();
   if (is_thinned(part)) GTEST_SKIP() << "thinned on SwiftShader";
-  Effects effects = all_shapes(part.max_lights > max_lights_of_short_passes);
+  FrameOptions options = all_shapes(part.max_lights > max_lights_of_short_passes);
   // Trees with a leaf a light need more nodes than the smallest texel buffers show.
-  effects.texel_fetch = part.width % 2 == 0 && device().limits().texel_buffer_bytes >= (uint64_t{1} << 24);
-  effects.any_subgroup_size = part.height % 2 != 0;
-  effects.test_ahead = part.width % 3 == 1;
-  Exactness check(yard(), part.width, part.height, effects);
+  options.shading.texel_fetch =
+      part.width % 2 == 0 && device().limits().texel_buffer_bytes >= (uint64_t{1} << 24);
+  options.tests.any_subgroup_size = part.height % 2 != 0;
+  options.shading.test_ahead = part.width % 3 == 1;
+  Exactness check(yard(), part.width, part.height, options);
   for_random_frames(
       part.width, part.height, part.cases, part.seed,
       [&](Random& random, const Camera& camera, const std::vector<Light>& lights) {

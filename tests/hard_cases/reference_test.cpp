@@ -8,7 +8,7 @@ namespace ml::test {
 namespace {
 
 constexpr uint32_t width = 8, height = 8;
-const Effects many{.spots = false, .long_lists = true};
+const FrameOptions many{.many_lights = true};
 
 // Lights that few pixels have in common, in an order that keeps the lanes of a subgroup apart: while one
 // looks for its next light the others wait.

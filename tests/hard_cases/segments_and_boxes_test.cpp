@@ -74,7 +74,7 @@ TEST_F(HardCases, Case24_WhatIsForcedOffShinesLikeAnOmniLight) {
   const std::vector<Light> lights = mixed_shapes(300, low, high, 0.2f, 9, 29);
   std::vector<Light> plain = lights;
   for (Light& light : plain) light.shape = LightShape::omni;
-  Exactness off(yard(), width, height, {.long_lists = false});
+  Exactness off(yard(), width, height, {.many_lights = false});
   const Seen a = off.expect_exact(yard_camera(), lights), b = off.expect_exact(yard_camera(), plain);
   EXPECT_EQ(a.truth.count, b.truth.count);
   EXPECT_EQ(a.truth.hash, b.truth.hash);

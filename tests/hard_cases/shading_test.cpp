@@ -123,7 +123,7 @@ TEST_F(HardCases, Case38_IntensitiesFromMillionthsToBillions) {
 }
 
 TEST_F(HardCases, Case38_SumOfManyTinyContributions) {
-  Exactness check(yard(), 16, 9, {.spots = true, .long_lists = true});
+  Exactness check(yard(), 16, 9, {.effects = {.spots = true}, .many_lights = true});
   std::vector<Light> lights;
   for (int i = 0; i < 65536; ++i)
     lights.push_back(omni({0.0001 * (i % 256), 4 + 0.0001 * (i / 256), 4}, 40, 1e-6f));

@@ -14,11 +14,11 @@ constexpr double rounding = 1e-5;
 
 class SplitTargets : public DeviceTest {};
 
-Effects targets(bool split, bool forward = false) {
-  Effects effects = all_shapes();
-  effects.forward = forward;
-  effects.split_targets = split;
-  return effects;
+FrameOptions targets(bool split, bool forward = false) {
+  FrameOptions options = all_shapes();
+  options.effects.forward = forward;
+  options.shading.split_targets = split;
+  return options;
 }
 
 // The yard with every kind of material on its boxes: metal and not, smooth and rough, black and white.
@@ -49,8 +49,8 @@ std::vector<Light> lights() {
 TEST_F(SplitTargets, PictureIsThatOfOneTargetWithEveryAlgorithm) {
   for (bool specular : {true, false}) {
     SCOPED_TRACE(specular);
-    Effects both = targets(true), one = targets(false);
-    both.specular = one.specular = specular;
+    FrameOptions both = targets(true), one = targets(false);
+    both.effects.specular = one.effects.specular = specular;
     Exactness split(materials_yard(), width, height, both);
     const Seen seen =
         split.expect_trials(camera(), lights(), specular ? every_algorithm() : std::vector<Trial>{}, 40);

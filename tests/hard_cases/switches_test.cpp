@@ -54,15 +54,15 @@ std::vector<Trial> combinations(const AlgorithmEntry& entry) {
 }
 
 // Of what the programs are made for besides; the combinations take turns with these.
-std::vector<Effects> surroundings() {
-  std::vector<Effects> list;
+std::vector<FrameOptions> surroundings() {
+  std::vector<FrameOptions> list;
   for (uint32_t i = 0; i < 4; ++i) {
-    Effects effects = all_shapes(i == 3);
-    effects.texel_fetch = i % 2 == 1;
-    effects.any_subgroup_size = i == 2;
-    effects.test_ahead = i == 1;
-    effects.poison_shared = true;
-    list.push_back(effects);
+    FrameOptions options = all_shapes(i == 3);
+    options.shading.texel_fetch = i % 2 == 1;
+    options.tests.any_subgroup_size = i == 2;
+    options.shading.test_ahead = i == 1;
+    options.tests.poison_shared = true;
+    list.push_back(options);
   }
   return list;
 }
@@ -73,15 +73,15 @@ TEST_P(Switches, EveryCombinationLosesNothing) {
   const std::vector<Trial> trials = combinations(find_algorithm(GetParam(), "test"));
   const std::vector<Light> lights = few_and_many();
   const Camera camera = camera_at({-3, 3, 20}, {-2, 3.5, 0}, width, height);
-  const std::vector<Effects> effects = surroundings();
-  for (size_t e = 0; e < effects.size(); ++e) {
+  const std::vector<FrameOptions> options = surroundings();
+  for (size_t e = 0; e < options.size(); ++e) {
     SCOPED_TRACE(fmt::format("surroundings {}", e));
     // One in four with each, so that every pair of a switch and a surrounding is met where there are many.
     std::vector<Trial> turn;
     for (size_t i = 0; i < trials.size(); ++i)
-      if (trials.size() < 4 * effects.size() || (i + i / effects.size()) % effects.size() == e)
+      if (trials.size() < 4 * options.size() || (i + i / options.size()) % options.size() == e)
         turn.push_back(trials[i]);
-    Exactness check(yard(), width, height, effects[e]);
+    Exactness check(yard(), width, height, options[e]);
     const Seen seen = check.expect_trials(camera, lights, turn, 0);
     EXPECT_GT(seen.lit_pixels(), 0u);
     EXPECT_LT(seen.lit_pixels(), uint64_t{width} * height) << "there is no sky";
@@ -103,13 +103,13 @@ TEST_F(HardCases, Hybrid_ListsAndTheFirstTreeInOneSubgroup) {
   Trial trial{"hybrid", Parameters(entry.parameters)};
   trial.parameters.set(entry.parameters, "walk", std::string("pixel"), "test");
   trial.parameters.set(entry.parameters, "shared_tree", true, "test");
-  Effects effects{.spots = true, .long_lists = false};
-  effects.poison_shared = true;
+  FrameOptions options{.effects = {.spots = true}, .many_lights = false};
+  options.tests.poison_shared = true;
   uint32_t met = 0;
   for (int64_t tile : {5, 6, 7, 9, 11, 12, 13, 20}) {
     Trial with = trial;
     with.parameters.set(entry.parameters, "tile", tile, "test");
-    Exactness check(yard(), width, height, effects);
+    Exactness check(yard(), width, height, options);
     const Seen seen =
         check.expect_trials(camera_at({-3, 3, 20}, {-2, 3.5, 0}, width, height), few_and_many(), {with}, 0);
     met += seen.prepared.front().tree_cells > 0 && seen.prepared.front().list_cells > 0;

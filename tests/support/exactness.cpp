@@ -155,10 +155,10 @@ uint64_t Seen::lit_pixels() const {
   return std::accumulate(lit.begin(), lit.end(), uint64_t{0});
 }
 
-Exactness::Exactness(const Scene& scene, uint32_t width, uint32_t height, const Effects& effects)
-    : frame_(device(), scene, effects, width, height),
-      brute_(device(), entry_of("brute_force"), Parameters(entry_of("brute_force").parameters), effects),
-      ideal_(device(), entry_of("ideal"), {}, effects) {
+Exactness::Exactness(const Scene& scene, uint32_t width, uint32_t height, const FrameOptions& options)
+    : frame_(device(), scene, options, width, height),
+      brute_(device(), entry_of("brute_force"), Parameters(entry_of("brute_force").parameters), options),
+      ideal_(device(), entry_of("ideal"), {}, options) {
   input_.threads = &threads_;
 }
 
@@ -343,14 +343,10 @@ Light box(glm::dvec3 position, glm::vec3 direction, glm::vec3 side, glm::vec3 ha
   return light;
 }
 
-Effects all_shapes(bool long_lists) {
-  return {.spots = true,
-          .capsules = true,
-          .wedges = true,
-          .boxes = true,
-          .probes = true,
-          .long_lists = long_lists,
-          .long_walks = long_lists};
+FrameOptions all_shapes(bool long_lists) {
+  return {.effects = {.spots = true, .capsules = true, .wedges = true, .boxes = true, .probes = true},
+          .many_lights = long_lists,
+          .tests = {.long_walks = long_lists}};
 }
 
 std::vector<Light> mixed_shapes(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest,

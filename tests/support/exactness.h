@@ -65,7 +65,7 @@ struct Seen {
 class Exactness {
  public:
   Exactness(const Scene& scene, uint32_t width, uint32_t height,
-            const Effects& effects = {.spots = true, .long_lists = false});
+            const FrameOptions& options = {.effects = {.spots = true}, .many_lights = false});
   ~Exactness();
 
   // Expects all invariants of the frame, for brute_force, ideal and each trial.
@@ -119,7 +119,7 @@ Light wedge(const Light& spot, glm::vec3 side, float half_length);
 Light box(glm::dvec3 position, glm::vec3 direction, glm::vec3 side, glm::vec3 half_extents);
 
 // All shapes are compiled in, and probe lights.
-Effects all_shapes(bool long_lists = false);
+FrameOptions all_shapes(bool long_lists = false);
 // `count` lights like those of scattered(), shapes in turn, every seventh a probe light.
 std::vector<Light> mixed_shapes(uint32_t count, glm::dvec3 low, glm::dvec3 high, float smallest,
                                 float largest, uint32_t seed);

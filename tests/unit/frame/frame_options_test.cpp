@@ -1,5 +1,5 @@
-// Which effects are on, on devices that need not be there.
-#include "harness/frame/effects.h"
+// Which options are on, on devices that need not be there.
+#include "harness/frame/frame_options.h"
 
 #include <gtest/gtest.h>
 
@@ -24,19 +24,21 @@ gpu::DeviceLimits limits_of(uint64_t texel_bytes) {
 }
 
 TEST(TexelFetch, IsForSoftwareDevicesThatShowEverythingSo) {
-  const Effects effects;
-  EXPECT_TRUE(effects.fetches_texels(device_of("cpu"), limits_of(1 << 27)));
-  EXPECT_FALSE(effects.fetches_texels(device_of("cpu"), limits_of((1 << 27) - 16)));
-  EXPECT_FALSE(effects.fetches_texels(device_of("cpu"), limits_of(1 << 20)));
+  const FrameOptions options;
+  EXPECT_TRUE(options.fetches_texels(device_of("cpu"), limits_of(1 << 27)));
+  EXPECT_FALSE(options.fetches_texels(device_of("cpu"), limits_of((1 << 27) - 16)));
+  EXPECT_FALSE(options.fetches_texels(device_of("cpu"), limits_of(1 << 20)));
   for (const char* type : {"discrete", "integrated", "virtual", "other"})
-    EXPECT_FALSE(effects.fetches_texels(device_of(type), limits_of(uint64_t{1} << 31))) << type;
+    EXPECT_FALSE(options.fetches_texels(device_of(type), limits_of(uint64_t{1} << 31))) << type;
 }
 
 TEST(TexelFetch, IsAsAskedOnAnyDevice) {
   for (const char* type : {"cpu", "discrete"})
     for (uint64_t bytes : {uint64_t{1} << 20, uint64_t{1} << 31}) {
-      EXPECT_TRUE(Effects{.texel_fetch = true}.fetches_texels(device_of(type), limits_of(bytes)));
-      EXPECT_FALSE(Effects{.texel_fetch = false}.fetches_texels(device_of(type), limits_of(bytes)));
+      EXPECT_TRUE(
+          FrameOptions{.shading = {.texel_fetch = true}}.fetches_texels(device_of(type), limits_of(bytes)));
+      EXPECT_FALSE(
+          FrameOptions{.shading = {.texel_fetch = false}}.fetches_texels(device_of(type), limits_of(bytes)));
     }
 }
 
