@@ -2,7 +2,10 @@
 
 add_library(ml_flags INTERFACE)
 target_include_directories(ml_flags INTERFACE ${CMAKE_SOURCE_DIR})
-target_compile_options(ml_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+target_compile_options(ml_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(MANYLIGHTS_WERROR)
+  target_compile_options(ml_flags INTERFACE -Werror)
+endif()
 # GCC 12 warns of overlapping copies inside its own std::string (GCC bug 105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(ml_flags INTERFACE -Wno-restrict)

@@ -5,7 +5,7 @@
 set -eu
 
 root=$(cd "$(dirname "$0")/.." && pwd -P)
-"$root/scripts/setup.sh"
+"$root/scripts/setup.sh" --to-run
 "$root/scripts/build.sh" release manylights
 earlier=--force
 for argument in "$@"; do

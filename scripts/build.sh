@@ -8,6 +8,8 @@ shift
 cd "$(dirname "$0")/.."
 
 settings='' targets=''
+# CI takes warnings for errors; somebody else's newer compiler may have new ones.
+if [ "${MANYLIGHTS_WERROR:-}" = 1 ]; then settings=' -DMANYLIGHTS_WERROR=ON'; fi
 for argument in "$@"; do
   case $argument in
     -D*) settings="$settings $argument" ;;

@@ -1,19 +1,22 @@
 #!/bin/sh
-# Installs the Debian 12 packages of packages.txt that are missing; does nothing, quickly, when none is.
+# Installs the Debian 12 packages that are missing, of packages.txt and packages-dev.txt; does nothing, quickly, when none is.
 #
 #     scripts/setup.sh            install what is missing
+#     scripts/setup.sh --to-run   only what building and running the program need (packages.txt)
 #     scripts/setup.sh --check    only say what is missing
 #
 # Exit code 0: everything is there; 3: it is not and cannot be put there (another system, no rights, no package server).
 # MANYLIGHTS_OS_RELEASE names another file than /etc/os-release (the tests' way to be on another system).
 set -eu
 
-list=$(dirname "$0")/packages.txt
+cd "$(dirname "$0")"
+lists=packages.txt
+if [ "${1:-}" != --to-run ]; then lists="$lists packages-dev.txt"; fi
 os_release=${MANYLIGHTS_OS_RELEASE:-/etc/os-release}
 
 say() { printf 'setup: %s\n' "$*" >&2; }
 
-packages=$(sed -e 's/#.*//' "$list" | tr -s ' \t\n' ' ' | sed -e 's/^ //' -e 's/ $//')
+packages=$(sed -e 's/#.*//' $lists | tr -s ' \t\n' ' ' | sed -e 's/^ //' -e 's/ $//')
 
 value_of() { sed -n "s/^$1=\"\{0,1\}\([^\"]*\)\"\{0,1\}\$/\1/p" "$os_release" 2>/dev/null || true; }
 if [ "$(value_of ID)" != debian ] || [ "$(value_of VERSION_ID)" != 12 ]; then

@@ -20,7 +20,8 @@ for driver in $drivers; do
 done
 
 "$root/scripts/setup.sh"
-"$root/scripts/build.sh" release
+# What bench.sh may have configured without.
+"$root/scripts/build.sh" release -DMANYLIGHTS_TESTS=ON -DMANYLIGHTS_BENCHMARKS=ON
 cd "$root"
 failed=0
 for driver in $drivers; do

@@ -3,7 +3,7 @@
 . "$(dirname "$0")/lib.sh"
 tree=$scratch/tree
 mkdir -p "$tree/scripts" "$tree/build/release" "$scratch/elsewhere"
-cp "$source_dir"/scripts/*.sh "$source_dir/scripts/packages.txt" "$tree/scripts/"
+cp "$source_dir"/scripts/*.sh "$source_dir"/scripts/packages*.txt "$tree/scripts/"
 cp -r "$source_dir/configs" "$tree/configs"
 ln -s "$program" "$tree/build/release/manylights"
 printf '#!/bin/sh\n' >"$tree/scripts/setup.sh"  # setup has its own test

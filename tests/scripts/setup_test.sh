@@ -25,6 +25,12 @@ expect 3 "$setup" --check
 says 'glslang-tools libglm-dev'
 never_says 'apt-get'
 
+# To run the program only its own packages are looked for.
+stub dpkg-query 'shift 2; for name in "$@"; do case $name in clang-tidy | libgtest-dev) echo "$name is of no use"; exit 2 ;; cmake) ;; *) echo "$name installed" ;; esac; done; exit 1'
+expect 0 "$setup" --to-run
+grep -q 'install --yes --no-install-recommends cmake, noninteractive' "$scratch/out" || fail "not exactly the missing package"
+stub dpkg-query 'shift 2; for name in "$@"; do case $name in glslang-tools) ;; libglm-dev) echo "$name config-files" ;; *) echo "$name installed" ;; esac; done; exit 1'
+
 # Not root: through sudo, which must not ask for a password where nobody can answer.
 stub id 'echo 1000'
 stub sudo 'echo "sudo $*"'
@@ -50,7 +56,7 @@ says 'glslang-tools libglm-dev'
 for system in 'ID=debian VERSION_ID="11"' 'ID=ubuntu VERSION_ID="12" PRETTY_NAME="Ubuntu 12"' 'ID=fedora'; do
   echo "$system" | sed 's/ \([A-Z]\)/\n\1/g' >"$scratch/other"
   expect 3 env MANYLIGHTS_OS_RELEASE="$scratch/other" "$setup"
-  for package in $(sed 's/#.*//' "$source_dir/scripts/packages.txt"); do says "  $package"; done
+  for package in $(sed 's/#.*//' "$source_dir/scripts/packages.txt" "$source_dir/scripts/packages-dev.txt"); do says "  $package"; done
   never_says 'installing'
 done
 expect 3 env MANYLIGHTS_OS_RELEASE=/nowhere "$setup"
@@ -60,4 +66,5 @@ says 'an unknown system'
 for script in bench test; do
   expect 3 env MANYLIGHTS_OS_RELEASE=/nowhere "$source_dir/scripts/$script.sh"
   says 'an unknown system'
+  if [ $script = bench ]; then never_says clang-tidy; else says clang-tidy; fi
 done
