@@ -128,6 +128,9 @@ struct TileClasses {
 // both.
 struct LongestWalk {
   uint64_t lights = 0, nodes = 0;
+  // Subtrees of 64 leaves that a subgroup takes one after the other, where that is how it walks together
+  // (algorithms/trees/masked_walk.glsl); else 0.
+  uint64_t subtrees = 0;
 };
 
 class Algorithm {

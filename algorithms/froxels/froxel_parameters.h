@@ -19,6 +19,7 @@ ParameterInfo ball_test_parameter();
 
 // How pixels walk the lights of a cell: `walk`.
 ParameterInfo walk_parameter();
+// Whether a subgroup's pixels walk together, in whatever way.
 bool walk_together(const Parameters& parameters);
 
 }  // namespace ml

@@ -5,7 +5,8 @@
 //   case 2  anything else
 layout(constant_id = 16) const bool LIST_CASE = false;
 layout(constant_id = 17) const bool SHARED_TREE = false;
-layout(constant_id = 18) const bool HAS_TREES = true;
+layout(constant_id = 18) const bool MASKED = false;
+layout(constant_id = 19) const bool HAS_TREES = true;
 #include "algorithms/trees/tree_walk.glsl"
 
 #ifndef FORWARD  // fragments have no workgroup

@@ -1,5 +1,6 @@
 // The tree of the pixel's tile.
-layout(constant_id = 16) const bool HAS_TREES = true;
+layout(constant_id = 16) const bool MASKED = false;
+layout(constant_id = 17) const bool HAS_TREES = true;
 #include "algorithms/trees/tree_walk.glsl"
 
 uint light_cell(SurfacePoint point) { return tile_of_point(point); }

@@ -9,8 +9,7 @@ namespace ml {
 class TreeAlgorithm : public Algorithm {
  public:
   TreeAlgorithm(const std::string& name, const FroxelSettings& froxels, const ForestSettings& trees,
-                bool together)
-      : trees_(name, froxels, trees), together_(together) {}
+                const Parameters& parameters);
 
   void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) final {
     trees_.prepare(frame, memory, spans);
@@ -18,15 +17,22 @@ class TreeAlgorithm : public Algorithm {
   PrepareCounters counters() const final { return trees_.counters(); }
   std::vector<std::string> buffers() const final { return TreePrepare::buffers(); }
   bool walks_together() const final { return together_; }
-  LongestWalk longest_walk(const FrameInput&) const final { return trees_.longest_walk(); }
+  LongestWalk longest_walk(const FrameInput&) const final { return trees_.longest_walk(masked_); }
   // Class 1 has trees, class 0 nothing but lists.
   TileClasses tile_classes() const final { return trees_.tile_classes(); }
   std::vector<uint32_t> class_constants(uint32_t tile_class) const final { return {tile_class}; }
 
+ protected:
+  // The masked walk of a subgroup (masked_walk.glsl); the shaders' constant MASKED.
+  bool masked() const { return masked_; }
+
  private:
   TreePrepare trees_;
-  bool together_;
+  bool together_, masked_;
 };
+
+// How pixels walk a tree: `walk`, with the masked walk beside those of lists.
+ParameterInfo tree_walk_parameter();
 
 // Name, paper and stages; the parameters of trees behind those of the grid.
 AlgorithmEntry tree_entry(const std::string& name, const std::string& summary,

@@ -51,8 +51,9 @@ const AlgorithmEntry& entry_of(const std::string& name) {
   return find_algorithm(name, "test");
 }
 
-// The algorithm's parameters that the grid has a word for; the others at their defaults.
-Trial trial_of(const std::string& algorithm, const GridSettings& grid, bool alone) {
+// The algorithm's parameters that the grid has a word for, and the walk that it is the turn of; the others at
+// their defaults.
+Trial trial_of(const std::string& algorithm, const GridSettings& grid, size_t turn) {
   const std::vector<ParameterInfo>& infos = entry_of(algorithm).parameters;
   Trial trial{algorithm, Parameters(infos)};
   const std::pair<const char*, ParameterValue> values[] = {
@@ -63,10 +64,12 @@ Trial trial_of(const std::string& algorithm, const GridSettings& grid, bool alon
       {"refinement", grid.refinement},
       {"ball_test", grid.ball_test},
       {"light_data", std::string(grid.duplicated ? "duplicated" : "indexed")},
-      {"walk", std::string(alone ? "pixel" : "subgroup")},
   };
   for (const auto& [name, value] : values)
     if (trial.parameters.values().contains(name)) trial.parameters.set(infos, name, value, "test");
+  for (const ParameterInfo& info : infos)
+    if (info.name == "walk")
+      trial.parameters.set(infos, info.name, info.choices[turn % info.choices.size()], "test");
   return trial;
 }
 
@@ -113,8 +116,8 @@ std::vector<Trial> trials_of(const std::vector<GridSettings>& grids) {
   static const std::vector<std::string> other = others();
   std::vector<Trial> trials;
   for (size_t i = 0; i < grids.size(); ++i) {
-    trials.push_back(trial_of("clustered", grids[i], i % 2 == 1));
-    trials.push_back(trial_of(other[i % other.size()], grids[i], i / other.size() % 2 == 1));
+    trials.push_back(trial_of("clustered", grids[i], i));
+    trials.push_back(trial_of(other[i % other.size()], grids[i], i / other.size()));
   }
   return trials;
 }

@@ -38,7 +38,7 @@ struct Trial {
 };
 
 // Every algorithm takes its turn with the grids: clustered with each, and one other with each; pixels walk
-// alone and together by turns.
+// alone and together, in every way, by turns.
 std::vector<Trial> trials_of(const std::vector<GridSettings>& grids);
 
 // Any exact algorithm with any parameters that `list` names.
