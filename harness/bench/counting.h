@@ -36,10 +36,11 @@ FrameCounters summarize(const PixelCounts& counts, const ContributingLights& tru
                         const std::vector<uint8_t>& lit, const PrepareCounters& prepare);
 
 // Why the counters of a frame cannot be right, whatever the lists are; empty when they may be. The reference
-// tests every light at every pixel with a surface, `ideal` lists and tests what contributes, and nobody lists
-// more lights than there are, evaluates what it has not listed, or counts where there is no surface.
+// tests every light at every pixel with a surface, `ideal` lists and tests what contributes to the pixel or,
+// where it walks `LightLists::groups`, to some pixel of its group, and nobody lists more lights than there
+// are, evaluates what it has not listed, or counts where there is no surface.
 std::string miscounted(const AlgorithmInfo& info, const PixelCounts& counts, const ContributingLights& truth,
-                       const std::vector<uint8_t>& lit, size_t lights);
+                       const std::vector<uint8_t>& lit, size_t lights, LightLists walk);
 
 // Which pixels of the loaded frame have a surface.
 std::vector<uint8_t> lit_pixels(DeviceFrame& frame);

@@ -61,6 +61,7 @@ class SetupProof {
   std::unique_ptr<ShadedAlgorithm> brute_, brute64_, ideal_;
   std::vector<std::unique_ptr<ShadedAlgorithm>> algorithms_;
   std::vector<Tally> tallies_;
+  LightLists lists_ = LightLists::pixels;  // for ideal
   // Of the frame at hand.
   std::vector<uint8_t> lit_;
   std::vector<glm::u16vec2> blocks_;

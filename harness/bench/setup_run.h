@@ -57,7 +57,7 @@ class SetupRun {
   std::vector<std::unique_ptr<ShadedAlgorithm>> algorithms_;
   std::vector<CaseResult> results_;
   std::vector<uint32_t> contradictions_;  // per case: samples whose times do not agree
-  bool wants_lists_ = false;
+  LightLists lists_ = LightLists::none;   // the most that a case wants
   const FrameInput* input_ = nullptr;
   Spans spans_;
 };

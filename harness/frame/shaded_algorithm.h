@@ -39,6 +39,11 @@ class ShadedAlgorithm final : private UploadMemory {
   // Bytes of the buffers that the GPU reads, as allocated.
   uint64_t upload_bytes() const;
   const AlgorithmInfo& info() const { return entry_.info; }
+  // The lists of contributing lights that its shading binds.
+  LightLists wanted_lists() const {
+    if (!entry_.info.needs_contributing_lists) return LightLists::none;
+    return together_ ? LightLists::groups : LightLists::pixels;
+  }
 
  private:
   std::span<std::byte> map(uint32_t slot, size_t bytes) override;

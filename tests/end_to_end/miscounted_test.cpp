@@ -16,7 +16,9 @@ struct Frame {
     counts.listed = counts.tested = {listed, listed, 0};
     counts.contributing = {2, 0, 0};
   }
-  std::string said(const AlgorithmInfo& info) const { return miscounted(info, counts, truth, lit, 5); }
+  std::string said(const AlgorithmInfo& info, LightLists walk = LightLists::none) const {
+    return miscounted(info, counts, truth, lit, 5, walk);
+  }
 };
 
 TEST(Miscounted, TheReferenceTestsEveryLightOfEverySurface) {
@@ -41,6 +43,28 @@ TEST(Miscounted, IdealListsWhatContributes) {
   EXPECT_EQ(right.said(ideal), "");
   right.counts.listed[1] = 1;
   EXPECT_NE(right.said(ideal), "");
+}
+
+// Two lights contribute to the first pixel, another one to the second, and they are in one group.
+TEST(Miscounted, IdealTogetherListsWhatContributesToTheGroup) {
+  AlgorithmInfo ideal;
+  ideal.needs_contributing_lists = true;
+  Frame right(3);
+  right.truth.count[1] = 1;
+  right.truth.group = {3, 3, 0};
+  right.counts.contributing[1] = 1;
+  EXPECT_EQ(right.said(ideal, LightLists::groups), "");
+  EXPECT_NE(right.said(ideal, LightLists::pixels), "");
+  Frame forward = right;
+  forward.counts.listed[1] = forward.counts.tested[1] = 1;
+  EXPECT_EQ(forward.said(ideal, LightLists::groups), "") << "what is lit forward walks alone";
+  for (uint32_t wrong : {0u, 2u, 4u}) {
+    Frame doctored = right;
+    doctored.counts.listed[1] = wrong;
+    EXPECT_NE(doctored.said(ideal, LightLists::groups), "");
+    doctored.counts.tested[1] = wrong;
+    EXPECT_NE(doctored.said(ideal, LightLists::groups), "");
+  }
 }
 
 TEST(Miscounted, NobodyEvaluatesWhatHeHasNotListed) {

@@ -44,7 +44,7 @@ TEST_P(FrustumList, LosesNoLight) {
   for (uint32_t index = 0; index < frames.frames(); ++index) {
     const FrameInput& input = frames.at(index);
     frame.load(input);
-    frame.find_contributing(input, false);
+    frame.find_contributing(input, LightLists::none);
     algorithm.prepare(input, spans, frame.seen_blocks().places());
     algorithm.count(frame, input);
     FrameCounters counters =

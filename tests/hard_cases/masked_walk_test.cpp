@@ -8,6 +8,7 @@
 
 #include "algorithms/froxels/grid_data.h"
 #include "algorithms/trees/forest_chunk.h"
+#include "shaders/shared/pixel_groups.h"
 #include "tests/hard_cases/hard_cases.h"
 #include "tests/unit/algorithms/plain_memory.h"
 
@@ -90,11 +91,6 @@ std::vector<Work> walk_cell(const Upload& upload, uint32_t cell, const std::vect
   return work;
 }
 
-// place_in_block() of shaders/shade.comp.
-glm::uvec2 place_in_block(uint32_t thread) {
-  return {(thread & 3) | (thread >> 2 & 4), (thread >> 2 & 3) | (thread >> 3 & 4)};
-}
-
 // Of every pixel.
 std::vector<Work> walk_frame(const Upload& upload, const std::vector<float>& position_depth) {
   const uint32_t lanes = device().limits().subgroup_size;
@@ -105,7 +101,7 @@ std::vector<Work> walk_frame(const Upload& upload, const std::vector<float>& pos
       for (uint32_t first = 0; first < 64; first += lanes) {
         std::map<uint32_t, std::vector<size_t>> pixels_of_cell;
         for (uint32_t thread = first; thread < std::min(first + lanes, 64u); ++thread) {
-          const glm::uvec2 pixel = glm::uvec2(x, y) + place_in_block(thread);
+          const glm::uvec2 pixel = glm::uvec2(x, y) + gpu_data::place_in_block(thread);
           if (pixel.x >= width || pixel.y >= height) continue;
           const size_t i = size_t{pixel.y} * width + pixel.x;
           const float depth = position_depth[4 * i + 3];

@@ -29,7 +29,7 @@ void PrunedCheck::load(const Camera& camera, const std::vector<Light>& lights) {
   input_.view = view_data(camera, targets.width(), targets.height(), static_cast<uint32_t>(lights.size()));
   input_.lights = storage_.lights();
   frame_.load(input_);
-  truth_ = frame_.find_contributing(input_, false);
+  truth_ = frame_.find_contributing(input_, LightLists::none);
   lit_ = lit_pixels(frame_);
   Spans spans;
   brute_.prepare(input_, spans, frame_.seen_blocks().places());

@@ -95,6 +95,13 @@ ParameterValue random_value(const ParameterInfo& info, Random& random) {
   return static_cast<int64_t>(std::clamp(std::round(value), info.minimum, info.maximum));
 }
 
+ShadedAlgorithm ideal_with(const char* walk, const Effects& effects) {
+  const AlgorithmEntry& entry = entry_of("ideal");
+  Parameters parameters(entry.parameters);
+  parameters.set(entry.parameters, "walk", std::string(walk), "test");
+  return ShadedAlgorithm(device(), entry, parameters, effects);
+}
+
 // Pixels whose count or set of contributing lights is not the reference's.
 uint64_t mismatches(const PixelCounts& counts, const ContributingLights& truth) {
   uint64_t wrong = 0;
@@ -159,7 +166,7 @@ uint64_t Seen::lit_pixels() const {
 Exactness::Exactness(const Scene& scene, uint32_t width, uint32_t height, const Effects& effects)
     : frame_(device(), scene, effects, width, height),
       brute_(device(), entry_of("brute_force"), Parameters(entry_of("brute_force").parameters), effects),
-      ideal_(device(), entry_of("ideal"), {}, effects) {
+      ideals_{ideal_with("pixel", effects), ideal_with("subgroup", effects)} {
   input_.threads = &threads_;
 }
 
@@ -195,7 +202,7 @@ Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& li
   input_.lights = storage_.lights();
   frame_.load(input_);
   Seen seen;
-  seen.truth = frame_.find_contributing(input_, true);
+  seen.truth = frame_.find_contributing(input_, LightLists::groups);
   seen.lit = ml::lit_pixels(frame_);
 
   Spans spans;
@@ -210,11 +217,15 @@ Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& li
   EXPECT_EQ(cut_short, 0u) << "pixels for which brute force did not look at every light";
   EXPECT_EQ(compare_images(seen.image, seen.image).not_finite, 0u) << "brute_force";
 
-  ideal_.prepare(input_, spans, frame_.seen_blocks().places());
-  ideal_.count(frame_, input_);
-  {
-    SCOPED_TRACE("ideal");
-    EXPECT_EQ(mismatches(read_counts(frame_), seen.truth), 0u) << "pixels";
+  for (ShadedAlgorithm& ideal : ideals_) {
+    SCOPED_TRACE(ideal.wanted_lists() == LightLists::groups ? "ideal, together" : "ideal");
+    ideal.prepare(input_, spans, frame_.seen_blocks().places());
+    ideal.count(frame_, input_);
+    const PixelCounts counts = read_counts(frame_);
+    EXPECT_EQ(mismatches(counts, seen.truth), 0u) << "pixels";
+    EXPECT_EQ(
+        miscounted(ideal.info(), counts, seen.truth, seen.lit, input_.lights.count(), ideal.wanted_lists()),
+        "");
     expect_same_image(result_picture(frame_), seen);
   }
   for (const Trial& trial : trials) {
@@ -252,7 +263,9 @@ void Exactness::expect_trial(const Trial& trial, Seen& seen) {
   EXPECT_EQ(frame.prepare.overflow_tiles, 0u);
   EXPECT_EQ(frame.prepare.overflow_lights, 0u);
   EXPECT_LE(frame.prepare.in_frustum, input_.lights.count());
-  EXPECT_EQ(miscounted(algorithm.info(), counts, seen.truth, seen.lit, input_.lights.count()), "");
+  EXPECT_EQ(miscounted(algorithm.info(), counts, seen.truth, seen.lit, input_.lights.count(),
+                       algorithm.wanted_lists()),
+            "");
   expect_same_image(image, seen);
 
   // Again, with the timed program, and prepared anew by other numbers of threads.
