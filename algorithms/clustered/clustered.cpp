@@ -58,6 +58,9 @@ class Clustered final : public Algorithm {
     return {clustered_shade, clustered_shade_counting, clustered_forward, clustered_forward_counting};
   }
   std::vector<uint32_t> shade_constants() const override { return {duplicated_}; }
+  std::optional<uint32_t> lights_listed(glm::uvec2 pixel, float depth) const override {
+    return lists_.lights_at(pixel, depth);
+  }
 
  private:
   bool duplicated_;

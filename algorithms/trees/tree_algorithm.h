@@ -21,6 +21,10 @@ class TreeAlgorithm : public Algorithm {
   // Class 1 has trees, class 0 nothing but lists.
   TileClasses tile_classes() const final { return trees_.tile_classes(); }
   std::vector<uint32_t> class_constants(uint32_t tile_class) const final { return {tile_class}; }
+  // A tree holds the lights of its cell's list.
+  std::optional<uint32_t> lights_listed(glm::uvec2 pixel, float depth) const final {
+    return trees_.lists().lights_at(pixel, depth);
+  }
 
  protected:
   // The masked walk of a subgroup (masked_walk.glsl); the shaders' constant MASKED.

@@ -42,6 +42,37 @@ std::string miscounted(const AlgorithmInfo& info, const PixelCounts& counts, con
   return wrong == 0 ? "" : fmt::format("{} of {} pixels are miscounted: {}", wrong, lit_pixels, first);
 }
 
+ViewDepths view_depths(DeviceFrame& frame, const gpu_data::ViewData& view) {
+  // shaders/surface.glsl: depth_from_reversed(). Devices divide within 2.5 units of the last place.
+  ViewDepths depths{frame.read_floats(frame.targets().depth), frame.targets().width()};
+  if (view.orthographic != 0) depths.absolute = 1e-6f * view.far;
+  for (float& depth : depths.depth)
+    if (depth > 0)
+      depth = view.orthographic != 0 ? view.far - depth * (view.far - view.near) : view.near / depth;
+  return depths;
+}
+
+std::string mislisted(const PixelCounts& counts, const ViewDepths& depths, const ListLength& list) {
+  uint64_t wrong = 0, surfaces = 0;
+  std::string first;
+  for (size_t i = 0; i < depths.depth.size(); ++i) {
+    const float depth = depths.depth[i];
+    if (!(depth > 0)) continue;
+    ++surfaces;
+    const glm::uvec2 pixel(i % depths.width, i / depths.width);
+    const auto right = [&](float at) {
+      const std::optional<uint32_t> lights = list(pixel, at);
+      return !lights || *lights == counts.listed[i];
+    };
+    const float rounding = depths.absolute + depths.relative * depth;
+    if (right(depth) || right(depth - rounding) || right(depth + rounding)) continue;
+    if (wrong++ == 0)
+      first = fmt::format("pixel {} lists {} lights of the {} in its list", i, counts.listed[i],
+                          list(pixel, depth).value_or(0));
+  }
+  return wrong == 0 ? "" : fmt::format("{} of {} pixels are miscounted: {}", wrong, surfaces, first);
+}
+
 FrameCounters summarize(const PixelCounts& counts, const ContributingLights& truth,
                         const std::vector<uint8_t>& lit, const PrepareCounters& prepare) {
   FrameCounters frame;

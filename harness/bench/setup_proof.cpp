@@ -157,6 +157,7 @@ void SetupProof::prove(const std::vector<uint32_t>& frames, Progress& progress) 
     frame_.load(input);
     frame_.find_contributing(input, lists_);
     lit_ = lit_pixels(frame_);
+    depths_ = view_depths(frame_, input.view);
     prove_references(input, index);
     const bool first = index == frames.front();
     auto advance = [&](StepKind kind, double expected, const std::string& what) {
@@ -260,6 +261,10 @@ void SetupProof::prove_case(size_t i, const FrameInput& input) {
   if (tally.miscounted.empty())
     tally.miscounted = miscounted(entries_[i]->info, counts, frame_.contributing(), lit_,
                                   input.lights.count(), algorithm.wanted_lists());
+  if (tally.miscounted.empty())
+    tally.miscounted = mislisted(counts, depths_, [&](glm::uvec2 pixel, float depth) {
+      return algorithm.lights_listed(pixel, depth);
+    });
 
   // The second time, and the timed program instead of the counting one.
   algorithm.prepare(input, spans, frame_.seen_blocks().places());

@@ -64,6 +64,7 @@ class SetupProof {
   LightLists lists_ = LightLists::pixels;  // for ideal
   // Of the frame at hand.
   std::vector<uint8_t> lit_;
+  ViewDepths depths_;
   std::vector<glm::u16vec2> blocks_;
   std::vector<size_t> sampled_;
   Picture brute_image_, ideal_image_;

@@ -107,12 +107,16 @@ void SetupRun::load(uint32_t index, bool lists) {
 }
 
 void SetupRun::check_counts(size_t i, const PixelCounts& counts, const std::vector<uint8_t>& lit,
-                            const FrameCounters& counters) {
+                            const ViewDepths& depths, const FrameCounters& counters) {
   CaseResult& result = results_[i];
   if (result.invalid) return;
   const AlgorithmInfo& info = algorithms_[i]->info();
   result.invalid_note = miscounted(info, counts, frame_.contributing(), lit, input_->lights.count(),
                                    algorithms_[i]->wanted_lists());
+  if (result.invalid_note.empty())
+    result.invalid_note = mislisted(counts, depths, [&](glm::uvec2 pixel, float depth) {
+      return algorithms_[i]->lights_listed(pixel, depth);
+    });
   // What the user's caps cut off is counted and told.
   if (result.invalid_note.empty() && info.exact && counters.mismatched_pixels > 0 &&
       counters.prepare.overflow_lights == 0)
@@ -131,9 +135,11 @@ void SetupRun::counting_lap(const Step& done, bool tell) {
     load(index, true);
     unseen += frame_.seen_blocks().places().empty();
     std::vector<uint8_t> lit;
+    ViewDepths depths;
     {
       auto span = log_.span("counting");
       lit = lit_pixels(frame_);
+      depths = view_depths(frame_, input_->view);
     }
     for (size_t i = 0; i < cases_.size(); ++i) {
       stop_if_interrupted();
@@ -147,7 +153,7 @@ void SetupRun::counting_lap(const Step& done, bool tell) {
       const PixelCounts counts = read_counts(frame_);
       const FrameCounters counters =
           summarize(counts, frame_.contributing(), lit, algorithms_[i]->counters());
-      check_counts(i, counts, lit, counters);
+      check_counts(i, counts, lit, depths, counters);
       for (const auto& [name, value] : counters.named()) results_[i].counters[name].push_back(value);
       done(index == 0 ? StepKind::programs : StepKind::counting, i, "counting " + cases_[i].id);
     }

@@ -24,7 +24,7 @@ struct ContributingLights {
   std::vector<uint32_t> hash;   // per pixel: sum of light_hash over the set
   // Per pixel: lights that contribute to some pixel of its group; empty where lists of groups were not asked
   // for.
-  std::vector<uint32_t> group;
+  std::vector<uint32_t> group = {};
 };
 
 // Which lists of contributing lights are made: none, one for each pixel, or one for each group of pixels too

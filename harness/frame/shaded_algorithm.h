@@ -36,6 +36,10 @@ class ShadedAlgorithm final : private UploadMemory {
   uint64_t upload_digest() const;
 
   PrepareCounters counters() const { return algorithm_->counters(); }
+  // After count() (Algorithm::lights_listed).
+  std::optional<uint32_t> lights_listed(glm::uvec2 pixel, float depth) const {
+    return algorithm_->lights_listed(pixel, depth);
+  }
   // Bytes of the buffers that the GPU reads, as allocated.
   uint64_t upload_bytes() const;
   const AlgorithmInfo& info() const { return entry_.info; }

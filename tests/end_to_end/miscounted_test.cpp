@@ -1,6 +1,8 @@
 // Counters that cannot be right are seen, whatever the lists are.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "harness/bench/counting.h"
 
 namespace ml {
@@ -73,6 +75,29 @@ TEST(Miscounted, NobodyEvaluatesWhatHeHasNotListed) {
   EXPECT_EQ(Frame(5).said(any), "");
   EXPECT_NE(Frame(1).said(any), "") << "two lights are evaluated";
   EXPECT_NE(Frame(6).said(any), "") << "there are five";
+}
+
+// Four pixels across, the third is sky; cells end at 10 m, with 7 lights before and 3 after, in the second
+// row one more.
+TEST(Miscounted, WhatIsListedIsWhatTheListHolds) {
+  const ListLength list = [](glm::uvec2 pixel, float depth) -> std::optional<uint32_t> {
+    return (depth < 10 ? 7u : 3u) + pixel.y;
+  };
+  const ViewDepths depths{{5, 20, 0, std::nextafter(10.0f, 0.0f), 5, 20, 0, 10}, 4};
+  PixelCounts counts;
+  counts.listed = {7, 3, 0, 7, 8, 4, 0, 4};
+  EXPECT_EQ(mislisted(counts, depths, list), "");
+  // On the boundary either is right.
+  counts.listed[3] = 3;
+  counts.listed[7] = 8;
+  EXPECT_EQ(mislisted(counts, depths, list), "");
+  for (size_t pixel : {0, 1, 3, 4, 5, 7}) {
+    PixelCounts doctored = counts;
+    ++doctored.listed[pixel];
+    const std::string said = mislisted(doctored, depths, list);
+    EXPECT_NE(said.find("1 of 6 pixels"), std::string::npos) << said;
+    EXPECT_EQ(mislisted(doctored, depths, [](glm::uvec2, float) { return std::optional<uint32_t>(); }), "");
+  }
 }
 
 }  // namespace

@@ -40,6 +40,9 @@ class Exactness::Replaceable final : public Algorithm {
   }
   void gpu_bindings(std::vector<gpu::Binding>& bindings) const override { (*inner_)->gpu_bindings(bindings); }
   void read_counters(gpu::Commands& commands) override { (*inner_)->read_counters(commands); }
+  std::optional<uint32_t> lights_listed(glm::uvec2 pixel, float depth) const override {
+    return (*inner_)->lights_listed(pixel, depth);
+  }
 
  private:
   std::shared_ptr<std::unique_ptr<Algorithm>> inner_;
@@ -265,6 +268,9 @@ void Exactness::expect_trial(const Trial& trial, Seen& seen) {
   EXPECT_LE(frame.prepare.in_frustum, input_.lights.count());
   EXPECT_EQ(miscounted(algorithm.info(), counts, seen.truth, seen.lit, input_.lights.count(),
                        algorithm.wanted_lists()),
+            "");
+  EXPECT_EQ(mislisted(counts, view_depths(frame_, input_.view),
+                      [&](glm::uvec2 pixel, float depth) { return algorithm.lights_listed(pixel, depth); }),
             "");
   expect_same_image(image, seen);
 
