@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -128,6 +129,9 @@ struct TileClasses {
 // both.
 struct LongestWalk {
   uint64_t lights = 0, nodes = 0;
+  // Subtrees of 64 leaves that a subgroup takes one after the other, where that is how it walks together
+  // (algorithms/trees/masked_walk.glsl); else 0.
+  uint64_t subtrees = 0;
 };
 
 class Algorithm {
@@ -175,8 +179,14 @@ class Algorithm {
   virtual void cull(gpu::Commands&, const FrameInput&, const std::vector<gpu::Binding>& /*frame*/) {}
   // Adds the device buffers that cull() fills and the shading loop binds; asked for after each cull().
   virtual void gpu_bindings(std::vector<gpu::Binding>&) const {}
-  // After a counting lap: reads back, in submissions of its own, what counters() cannot know without the GPU.
+  // After a counting lap: reads back, in submissions of its own, what counters() and lights_listed() cannot
+  // know without the GPU.
   virtual void read_counters(gpu::Commands&) {}
+
+  // How many lights the list or the tree holds that a surface point at this pixel and view depth (m) looks
+  // through, in the frame that was counted last: what its cursor says by COUNT_LISTED, found without the
+  // shading loop. Counting laps compare them for every pixel. Default: not known.
+  virtual std::optional<uint32_t> lights_listed(glm::uvec2 /*pixel*/, float /*depth*/) const { return {}; }
 };
 
 // One line of the registry.

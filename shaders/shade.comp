@@ -24,6 +24,7 @@
 #extension GL_KHR_shader_subgroup_ballot : enable
 #extension GL_KHR_shader_subgroup_shuffle : enable
 #include "shaders/light_eval.glsl"
+#include "shaders/shared/pixel_groups.h"
 
 // Which pixels are lit forward (gbuffer.frag).
 layout(binding = BIND_FORWARD) uniform usampler2D Forward;
@@ -159,12 +160,6 @@ void shade_alone(SurfacePoint point, inout VEC3 sum) {
 #else
 bool surface_to_light(uvec2 pixel, out SurfacePoint point) {
   return surface_load(pixel, point) && (!EFFECT_FORWARD || texelFetch(Forward, ivec2(pixel), 0).x == 0u);
-}
-
-// Eight neighbouring threads are 4x2 pixels, 16 are 4x4, 32 are 8x4: nearly square, so that the pixels of a subgroup have much in common,
-// whatever its size.
-uvec2 place_in_block(uint thread) {
-  return uvec2((thread & 3u) | (thread >> 2 & 4u), (thread >> 2 & 3u) | (thread >> 3 & 4u));
 }
 
 // What the ranges before left.

@@ -61,6 +61,9 @@ class Clustered final : public Algorithm {
   gpu::Constants shade_constants() const override {
     return {{"DUPLICATED", duplicated_}, {"NARROW_INDICES", settings_.narrow}};
   }
+  std::optional<uint32_t> lights_listed(glm::uvec2 pixel, float depth) const override {
+    return lists_.lights_at(pixel, depth);
+  }
 
  private:
   bool duplicated_;

@@ -1,6 +1,5 @@
 // The list of the pixel's froxel.
 layout(constant_id = 32) const bool DUPLICATED = false;
-layout(constant_id = 33) const bool NARROW_INDICES = false;
 #include "algorithms/froxels/froxel_cell.glsl"
 
 layout(scalar, binding = 17) readonly buffer Offsets { uint froxel_offsets[]; };

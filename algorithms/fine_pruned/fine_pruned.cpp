@@ -86,6 +86,10 @@ class FinePruned final : public Algorithm {
         sizeof(gpu_data::VisibleHeader) + lights_.lights().size_bytes() +
         (settings_.packed ? sums.tiles * settings_.packed_words() * 4 : sums.tiles * 8 + sums.listed * 4);
   }
+  // The tile's list as the pass that made it counted it.
+  std::optional<uint32_t> lights_listed(glm::uvec2 pixel, float) const override {
+    return passes_->listed(pixel);
+  }
 
  private:
   PruneSettings settings_;

@@ -85,6 +85,7 @@ void ListPasses::reserve(Grown& grown, uint64_t bytes) {
 void ListPasses::record(gpu::Commands& commands, const gpu_data::ViewData& view, const gpu::Bindings& frame,
                         uint32_t visible, uint64_t entries) {
   const uint32_t columns = tiles_along(view.resolution.x), rows = tiles_along(view.resolution.y);
+  columns_ = columns;
   tiles_ = columns * rows;
   reserve(light_bounds_, uint64_t{visible} * sizeof(gpu_data::ScreenBounds));
   reserve(tile_counts_, uint64_t{tiles_} * 8);
@@ -132,9 +133,14 @@ void ListPasses::bindings(gpu::Bindings& list) const {
     list.emplace_back(grown->name, *grown->buffer);
 }
 
+uint32_t ListPasses::listed(glm::uvec2 pixel) const {
+  return listed_.at(size_t{pixel.y / ML_PRUNED_TILE} * columns_ + pixel.x / ML_PRUNED_TILE);
+}
+
 ListPasses::Counts ListPasses::read(gpu::Commands& commands) {
   Counts sums;
   sums.tiles = tiles_;
+  listed_.assign(tiles_, 0);
   const size_t bytes = size_t{tiles_} * 8;
   if (bytes == 0) return sums;
   if (!readback_ || readback_->bytes() < bytes)
@@ -150,14 +156,16 @@ ListPasses::Counts ListPasses::read(gpu::Commands& commands) {
     const uint32_t coarse = words[2 * tile], pruned = words[2 * tile + 1];
     sums.coarse += coarse;
     if (!settings_.packed) {
+      listed_[tile] = pruned;
       sums.listed += pruned;
       continue;
     }
     uint32_t lost = beyond(coarse, ML_PRUNED_CHUNK);
     for (const uint32_t listed : {pruned & 0xffff, pruned >> 16}) {  // listed_pair()
-      sums.listed += std::min(listed, ML_PACKED_LIGHTS);
+      listed_[tile] += std::min(listed, ML_PACKED_LIGHTS);
       lost += beyond(listed, ML_PACKED_LIGHTS);
     }
+    sums.listed += listed_[tile];
     sums.overflow_lights += lost;
     sums.overflow_tiles += lost > 0;
   }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "algorithms/algorithm.h"
 #include "algorithms/fine_pruned/pruned_lists.h"
@@ -36,6 +37,8 @@ class ListPasses {
     uint64_t tiles = 0, coarse = 0, listed = 0, overflow_tiles = 0, overflow_lights = 0;
   };
   Counts read(gpu::Commands& commands);
+  // Lights in the lists of the pixel's tile, of the frame that was read back last.
+  uint32_t listed(glm::uvec2 pixel) const;
 
  private:
   struct Grown {
@@ -60,7 +63,8 @@ class ListPasses {
   Grown light_bounds_{"Bounds", {}}, tile_lists_{"TileLists", {}}, list_lights_{"ListLights", {}},
       packed_lists_{"PackedLists", {}}, tile_counts_{"TileCounts", {}}, region_lists_{"RegionLists", {}};
   std::unique_ptr<gpu::Buffer> readback_;
-  uint32_t tiles_ = 0;
+  std::vector<uint32_t> listed_;  // of each tile, read back
+  uint32_t columns_ = 0, tiles_ = 0;
   uint32_t region_shift_ = 0, region_columns_ = 0, region_rows_ = 0;
 };
 

@@ -25,6 +25,13 @@ struct FroxelGrid {
     return (slice * rows + row) * columns + column;
   }
 
+  // The froxel of a surface point, as froxel_cell.glsl finds it.
+  uint32_t cell_of(glm::uvec2 pixel, float depth) const {
+    const float inverse_tile = data().inverse_tile;
+    return cell(gpu_data::tile_of_pixel(pixel.x, inverse_tile),
+                gpu_data::tile_of_pixel(pixel.y, inverse_tile), gpu_data::slice_of_depth(depth, mapping));
+  }
+
   gpu_data::FroxelGridData data() const {
     return {mapping, 1.0f / static_cast<float>(tile), columns, tiles(), 0};
   }

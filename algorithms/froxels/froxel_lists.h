@@ -63,6 +63,11 @@ class FroxelLists {
   // Bytes of the entries as they are uploaded.
   uint64_t entry_bytes() const { return entries_ * (narrow_ ? sizeof(uint16_t) : sizeof(uint32_t)); }
   uint64_t lights_in_frustum() const { return in_frustum_; }
+  // Of the froxel of a surface point: how many.
+  uint32_t lights_at(glm::uvec2 pixel, float depth) const {
+    const uint32_t cell = grid_.cell_of(pixel, depth);
+    return offsets_[cell + 1] - offsets_[cell];
+  }
   // The most entries of one froxel.
   uint32_t longest() const { return longest_; }
 

@@ -58,7 +58,7 @@ ParameterInfo walk_parameter() {
 }
 
 bool walk_together(const Parameters& parameters) {
-  return parameters.choice("walk") == "subgroup";
+  return parameters.choice("walk") != "pixel";
 }
 
 }  // namespace ml

@@ -22,6 +22,7 @@ void read_list_settings(const Parameters& parameters, FroxelSettings& settings);
 
 // How pixels walk the lights of a cell: `walk`.
 ParameterInfo walk_parameter();
+// Whether a subgroup's pixels walk together, in whatever way.
 bool walk_together(const Parameters& parameters);
 
 }  // namespace ml

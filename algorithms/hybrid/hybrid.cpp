@@ -27,19 +27,21 @@ ForestSettings forest_settings(const Parameters& p) {
 class Hybrid final : public TreeAlgorithm {
  public:
   explicit Hybrid(const Parameters& p)
-      : TreeAlgorithm("hybrid", froxels(p), forest_settings(p), walk_together(p)),
+      : TreeAlgorithm("hybrid", froxels(p), forest_settings(p), p),
         list_case_(p.boolean("list_case")),
-        shared_tree_(p.boolean("shared_tree")),
-        narrow_(froxels(p).narrow) {}
+        shared_tree_(p.boolean("shared_tree")) {}
   ShadeShaders shade_shaders() const override {
     return {hybrid_shade, hybrid_shade_counting, hybrid_forward, hybrid_forward_counting};
   }
   gpu::Constants shade_constants() const override {
-    return {{"LIST_CASE", list_case_}, {"SHARED_TREE", shared_tree_}, {"NARROW_INDICES", narrow_}};
+    gpu::Constants constants = tree_constants();
+    constants.push_back({"LIST_CASE", list_case_});
+    constants.push_back({"SHARED_TREE", shared_tree_});
+    return constants;
   }
 
  private:
-  bool list_case_, shared_tree_, narrow_;
+  bool list_case_, shared_tree_;
 };
 
 }  // namespace
@@ -63,7 +65,7 @@ AlgorithmEntry hybrid_entry() {
   entry.parameters.push_back(ParameterInfo::boolean(
       "shared_tree", false,
       "subgroups that walk one and the same tree copy it to shared memory first (section 3.4)"));
-  entry.parameters.push_back(walk_parameter());
+  entry.parameters.push_back(tree_walk_parameter());
   entry.check = [](const Parameters& p, uint32_t width, uint32_t height) -> std::string {
     if (walk_together(p) && (p.boolean("list_case") || p.boolean("shared_tree")))
       return "list_case and shared_tree are ways of walking alone; set walk to pixel";

@@ -5,8 +5,6 @@
 //   case 2  anything else
 layout(constant_id = 32) const bool LIST_CASE = false;
 layout(constant_id = 33) const bool SHARED_TREE = false;
-layout(constant_id = 34) const bool NARROW_INDICES = false;
-layout(constant_id = 35) const bool HAS_TREES = true;
 #include "algorithms/trees/tree_walk.glsl"
 
 #ifndef FORWARD  // fragments have no workgroup

@@ -1,5 +1,7 @@
 #include "algorithms/ideal/ideal.h"
 
+#include "harness/gpu/device.h"
+#include "shaders/shared/pixel_groups.h"
 #include "spirv/ideal_forward.h"
 #include "spirv/ideal_forward_counting.h"
 #include "spirv/ideal_shade.h"
@@ -12,16 +14,25 @@ namespace {
 // light was lost.
 class Ideal final : public Algorithm {
  public:
+  explicit Ideal(const Parameters& p) : together_(p.choice("walk") == "subgroup") {}
+
   void prepare(const FrameInput& frame, UploadMemory&, Spans&) override {
     counters_.in_frustum = frame.lights.count();
   }
   PrepareCounters counters() const override { return counters_; }
   std::vector<std::string> buffers() const override { return {}; }
+  bool walks_together() const override { return together_; }
   ShadeShaders shade_shaders() const override {
     return {ideal_shade, ideal_shade_counting, ideal_forward, ideal_forward_counting};
   }
+  void create_gpu(gpu::Device& device, const gpu::Constants&) override {
+    group_pixels_ = gpu_data::group_pixels(device.limits().subgroup_size);
+  }
+  gpu::Constants shade_constants() const override { return {{"GROUP_PIXELS", group_pixels_}}; }
 
  private:
+  bool together_;
+  uint32_t group_pixels_ = 1;
   PrepareCounters counters_;
 };
 
@@ -32,7 +43,11 @@ AlgorithmEntry ideal_entry() {
   entry.info.name = "ideal";
   entry.info.summary = "per pixel exactly the lights that contribute, found beforehand: the lower bound";
   entry.info.needs_contributing_lists = true;
-  entry.create = [](const Parameters&) { return std::make_unique<Ideal>(); };
+  entry.parameters = {ParameterInfo::choice(
+      "walk", "pixel", {"pixel", "subgroup"},
+      "each pixel walks its own list, or the pixels of a subgroup walk together what contributes to any of "
+      "them, fetching each light once")};
+  entry.create = [](const Parameters& parameters) { return std::make_unique<Ideal>(parameters); };
   return entry;
 }
 

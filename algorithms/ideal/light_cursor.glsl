@@ -1,6 +1,11 @@
-// The pixel's own list of contributing lights.
+// The pixel's own list of contributing lights; where pixels walk together the list of all lights that contribute to some pixel of their group.
+#include "shaders/shared/pixel_groups.h"
+
+layout(constant_id = 32) const uint GROUP_PIXELS = 8u;
 layout(scalar, binding = 16) readonly buffer ListOffsets { uint list_offsets[]; };
 layout(scalar, binding = 17) readonly buffer ListIndices { uint list_indices[]; };
+layout(scalar, binding = 18) readonly buffer GroupOffsets { uint group_offsets[]; };
+layout(scalar, binding = 19) readonly buffer GroupIndices { uint group_indices[]; };
 
 struct LightCursor {
   uint next, end;
@@ -20,3 +25,25 @@ bool light_next(inout LightCursor cursor, out uint light, out float weight) {
   return true;
 }
 #define CURSOR_MORE(cursor) ((cursor).next < (cursor).end)
+
+uint light_cell(SurfacePoint point) { return group_of_pixel(point.pixel, (view.resolution.x + 7u) / 8u, GROUP_PIXELS); }
+
+LightCursor cell_begin(uint group, float depth, bool counted) {
+  LightCursor cursor = LightCursor(group_offsets[group], group_offsets[group + 1u]);
+  if (counted) COUNT_LISTED(cursor.end - cursor.next);
+  return cursor;
+}
+
+// The whole list is one run.
+uint light_first_runs(inout LightCursor cursor, bool here) { return cursor.next < cursor.end ? 1u : 0u; }
+
+uint light_next_runs(inout LightCursor cursor, bool here) { return 0u; }
+
+bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint count) {
+  first = cursor.next;
+  count = cursor.end - cursor.next;
+  return here;
+}
+
+uint run_light(uint place) { return group_indices[place]; }
+#define CURSOR_RUNS

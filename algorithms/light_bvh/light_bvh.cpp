@@ -38,6 +38,7 @@ class LightBvh final : public Algorithm {
       update(frame);
       packing_.build(tree_, visible_);
     }
+    lights_ = static_cast<uint32_t>(frame.lights.count());
     auto span = spans.span("upload");
     const auto nodes = packing_.nodes();
     const size_t node_bytes = size_t{node_words_} * sizeof(uint32_t), bytes = nodes.size() * node_bytes;
@@ -58,6 +59,8 @@ class LightBvh final : public Algorithm {
     return {light_bvh_shade, light_bvh_shade_counting, light_bvh_forward, light_bvh_forward_counting};
   }
   gpu::Constants shade_constants() const override { return {{"NODE_WORDS", node_words_}}; }
+  // All lights of the frame, whether their leaves are visible or not.
+  std::optional<uint32_t> lights_listed(glm::uvec2, float) const override { return lights_; }
   // A leaf is a light.
   LongestWalk longest_walk(const FrameInput&) const override { return {0, packing_.nodes().size()}; }
 
@@ -96,7 +99,7 @@ class LightBvh final : public Algorithm {
   VisibleLights culled_;
   std::vector<uint8_t> visible_;
   bool built_ = false;
-  uint32_t last_frame_ = 0;
+  uint32_t last_frame_ = 0, lights_ = 0;
   PrepareCounters counters_;
 };
 

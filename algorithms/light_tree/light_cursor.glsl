@@ -1,6 +1,4 @@
 // The tree of the pixel's tile.
-layout(constant_id = 32) const bool NARROW_INDICES = false;
-layout(constant_id = 33) const bool HAS_TREES = true;
 #include "algorithms/trees/tree_walk.glsl"
 
 uint light_cell(SurfacePoint point) { return tile_of_point(point); }

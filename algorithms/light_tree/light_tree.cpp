@@ -29,15 +29,11 @@ ForestSettings always_trees(const Parameters& p) {
 
 class LightTree final : public TreeAlgorithm {
  public:
-  explicit LightTree(const Parameters& p)
-      : TreeAlgorithm("light_tree", tiles(p), always_trees(p), walk_together(p)), narrow_(tiles(p).narrow) {}
+  explicit LightTree(const Parameters& p) : TreeAlgorithm("light_tree", tiles(p), always_trees(p), p) {}
   ShadeShaders shade_shaders() const override {
     return {light_tree_shade, light_tree_shade_counting, light_tree_forward, light_tree_forward_counting};
   }
-  gpu::Constants shade_constants() const override { return {{"NARROW_INDICES", narrow_}}; }
-
- private:
-  bool narrow_;
+  gpu::Constants shade_constants() const override { return tree_constants(); }
 };
 
 }  // namespace
@@ -47,7 +43,7 @@ AlgorithmEntry light_tree_entry() {
       tree_entry("light_tree", "one tree over depth for each tile, built on the CPU",
                  {ParameterInfo::integer("tile", 24, 4, 1024, "side of a screen tile in pixels"),
                   ball_test_parameter(), index_bits_parameter()});
-  entry.parameters.push_back(walk_parameter());
+  entry.parameters.push_back(tree_walk_parameter());
   entry.create = [](const Parameters& parameters) { return std::make_unique<LightTree>(parameters); };
   return entry;
 }

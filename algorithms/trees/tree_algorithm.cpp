@@ -1,6 +1,24 @@
 #include "algorithms/trees/tree_algorithm.h"
 
+#include "algorithms/froxels/froxel_parameters.h"
+
 namespace ml {
+
+TreeAlgorithm::TreeAlgorithm(const std::string& name, const FroxelSettings& froxels,
+                             const ForestSettings& trees, const Parameters& parameters)
+    : trees_(name, froxels, trees),
+      together_(walk_together(parameters)),
+      masked_(parameters.choice("walk") == "masked"),
+      narrow_(froxels.narrow) {}
+
+ParameterInfo tree_walk_parameter() {
+  ParameterInfo info = walk_parameter();
+  info.choices.emplace_back("masked");
+  info.help =
+      "the pixels of a subgroup walk a cell together, fetching each light once (subgroup: a light is tested "
+      "by those whose leaf it is in; masked: by all, as soon as one hits the leaf), or each pixel alone";
+  return info;
+}
 
 AlgorithmEntry tree_entry(const std::string& name, const std::string& summary,
                           std::vector<ParameterInfo> grid) {

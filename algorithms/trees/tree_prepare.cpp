@@ -75,10 +75,15 @@ TileClasses TreePrepare::tile_classes() const {
   return {1, lists_.grid().tile, lists_.grid().columns, class_of_tile_};
 }
 
-LongestWalk TreePrepare::longest_walk() const {
+LongestWalk TreePrepare::longest_walk(bool masked) const {
   // A tree's nodes are fewer than twice its leaves, and padding may double those.
   const uint64_t lights = lists_.longest(), leaves = lights / trees_.lights_per_leaf + 1;
-  return {lights, std::min<uint64_t>(4 * leaves, 2 * ML_TREE_MAX_LEAVES)};
+  LongestWalk walk{lights, std::min<uint64_t>(4 * leaves, 2 * ML_TREE_MAX_LEAVES)};
+  // A subtree of 64 leaves is 127 nodes, and one node above; the last may be smaller. The leaves of a list
+  // that one cannot count stand side by side, each a tree of its own.
+  constexpr uint64_t list_leaf = ML_TREE_MAX_LEAF_LIGHTS - 63;
+  if (masked) walk.subtrees = std::max(walk.nodes / 128, lights / list_leaf) + 1;
+  return walk;
 }
 
 std::vector<ParameterInfo> tree_parameters() {

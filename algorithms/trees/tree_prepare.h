@@ -17,8 +17,8 @@ class TreePrepare {
   // The upload slots, as tree_walk.glsl names them.
   static std::vector<std::string> buffers() { return {"Grid", "TreeCells", "TreeNodes", "Indices"}; }
 
-  // Of the frame that was prepared last (Algorithm).
-  LongestWalk longest_walk() const;
+  // Of the frame that was prepared last (Algorithm). `masked`: subgroups merge leaves (masked_walk.glsl).
+  LongestWalk longest_walk(bool masked) const;
   TileClasses tile_classes() const;
 
   const FroxelLists& lists() const { return lists_; }

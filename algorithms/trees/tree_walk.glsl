@@ -1,9 +1,11 @@
 // The stackless walk through a tile's or froxel's tree (Tiled Light Trees, listing 3): strictly forwards, to the next
 // node where the pixel's depth is inside, over all that is below where it is not.
-// Before it come the constants HAS_TREES: false where all cells are lists that stand in the cell, which need no walk, and NARROW_INDICES
-// (froxel_cell.glsl).
+// HAS_TREES: false where all cells are lists that stand in the cell, which need no walk. MASKED: subgroups that walk together do so by
+// masked_walk.glsl.
 #ifndef ML_TREE_WALK_GLSL
 #define ML_TREE_WALK_GLSL
+layout(constant_id = 40) const bool HAS_TREES = true;
+layout(constant_id = 41) const bool MASKED = false;
 #include "algorithms/trees/tree_node.h"
 #include "algorithms/froxels/froxel_cell.glsl"
 #include "shaders/subgroup_exchange.glsl"
@@ -37,6 +39,9 @@ struct LightCursor {
   // A subgroup that walks together: the run of lights that this lane found, and the depths at which it shines.
   uint run_first, run_count;
   float run_low, run_high;
+  // MASKED: run_first and run_count are of all lights from leaf 0 of 32 on, of which each has so many, but for the last. Leaves that are walked, and
+  // those of the 32 after these.
+  uint leaf_lights, leaves, later;
 };
 
 // `counted`: the pixel itself walks the tree, and does not only help.
@@ -46,7 +51,8 @@ LightCursor cell_begin(uint cell, float depth, bool counted) {
   // A list is at once what a tree's walk finds in a leaf.
   const uint node = list ? 0u : place.first, end = list ? 0u : place.end;
   const uint next = list ? place.first : 0u, last = list ? place.first + (place.end & ~ML_TREE_CELL_LIST) : 0u;
-  LightCursor cursor = LightCursor(node, end, next, last, depth, next, last - next, -any_depth, any_depth);
+  // To the masked walk a list is one leaf.
+  LightCursor cursor = LightCursor(node, end, next, last, depth, next, last - next, -any_depth, any_depth, last - next, 1u, 0u);
 #ifdef COUNTING
   if (counted) {
     // Nodes that stand side by side: one tree, or the leaves of one list.
@@ -146,16 +152,26 @@ void tree_runs(inout LightCursor cursor, bool here, inout uint runs) {
   } while (runs == 0u && cursor.node < cursor.end);
 }
 
+#include "algorithms/trees/masked_walk.glsl"
+
 // A list is one run, in every lane.
 uint light_first_runs(inout LightCursor cursor, bool here) {
   uint runs = cursor.next != cursor.last ? 1u : 0u;
-  if (HAS_TREES) tree_runs(cursor, here, runs);
+  if (HAS_TREES && MASKED) {
+    if (cursor.node < cursor.end) runs = masked_runs(cursor, here);
+  } else if (HAS_TREES) {
+    tree_runs(cursor, here, runs);
+  }
   return runs;
 }
 
 uint light_next_runs(inout LightCursor cursor, bool here) {
   uint runs = 0u;
-  if (HAS_TREES && cursor.node < cursor.end) tree_runs(cursor, here, runs);
+  if (HAS_TREES && MASKED) {
+    if (cursor.later != 0u || cursor.node < cursor.end) runs = masked_runs(cursor, here);
+  } else if (HAS_TREES && cursor.node < cursor.end) {
+    tree_runs(cursor, here, runs);
+  }
   return runs;
 }
 
@@ -163,6 +179,10 @@ bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint
   if (!HAS_TREES) {
     first = cursor.run_first;
     count = cursor.run_count;
+    return here;
+  }
+  if (MASKED) {
+    masked_run(cursor, bit, first, count);
     return here;
   }
   first = subgroupShuffle(cursor.run_first, bit);

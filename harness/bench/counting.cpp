@@ -19,14 +19,20 @@ std::vector<uint8_t> lit_pixels(DeviceFrame& frame) {
 }
 
 std::string miscounted(const AlgorithmInfo& info, const PixelCounts& counts, const ContributingLights& truth,
-                       const std::vector<uint8_t>& lit, size_t lights) {
+                       const std::vector<uint8_t>& lit, size_t lights, LightLists walk) {
   uint64_t wrong = 0, lit_pixels = 0;
   std::string first;
   for (size_t i = 0; i < lit.size(); ++i) {
     lit_pixels += lit[i];
     const uint32_t listed = counts.listed[i], tested = counts.tested[i], reached = counts.contributing[i];
-    const size_t whole = !lit[i] ? 0 : info.reference_only ? lights : truth.count[i];
     const bool fixed = !lit[i] || info.reference_only || info.needs_contributing_lists;
+    // Where `ideal` walks by groups, what is lit forward walks alone.
+    const bool of_group =
+        info.needs_contributing_lists && walk == LightLists::groups && lit[i] && listed != truth.count[i];
+    const size_t whole = !lit[i]               ? 0
+                         : info.reference_only ? lights
+                         : of_group            ? truth.group.at(i)
+                                               : truth.count[i];
     if (fixed ? listed == whole && tested == whole : listed <= lights && reached <= listed) continue;
     if (wrong++ == 0)
       first =
@@ -34,6 +40,37 @@ std::string miscounted(const AlgorithmInfo& info, const PixelCounts& counts, con
                 : fmt::format("pixel {} lists {} of {} lights and evaluates {}", i, listed, lights, reached);
   }
   return wrong == 0 ? "" : fmt::format("{} of {} pixels are miscounted: {}", wrong, lit_pixels, first);
+}
+
+ViewDepths view_depths(DeviceFrame& frame, const gpu_data::ViewData& view) {
+  // shaders/surface.glsl: depth_from_reversed(). Devices divide within 2.5 units of the last place.
+  ViewDepths depths{frame.read_floats(frame.targets().depth), frame.targets().width()};
+  if (view.orthographic != 0) depths.absolute = 1e-6f * view.far;
+  for (float& depth : depths.depth)
+    if (depth > 0)
+      depth = view.orthographic != 0 ? view.far - depth * (view.far - view.near) : view.near / depth;
+  return depths;
+}
+
+std::string mislisted(const PixelCounts& counts, const ViewDepths& depths, const ListLength& list) {
+  uint64_t wrong = 0, surfaces = 0;
+  std::string first;
+  for (size_t i = 0; i < depths.depth.size(); ++i) {
+    const float depth = depths.depth[i];
+    if (!(depth > 0)) continue;
+    ++surfaces;
+    const glm::uvec2 pixel(i % depths.width, i / depths.width);
+    const auto right = [&](float at) {
+      const std::optional<uint32_t> lights = list(pixel, at);
+      return !lights || *lights == counts.listed[i];
+    };
+    const float rounding = depths.absolute + depths.relative * depth;
+    if (right(depth) || right(depth - rounding) || right(depth + rounding)) continue;
+    if (wrong++ == 0)
+      first = fmt::format("pixel {} lists {} lights of the {} in its list", i, counts.listed[i],
+                          list(pixel, depth).value_or(0));
+  }
+  return wrong == 0 ? "" : fmt::format("{} of {} pixels are miscounted: {}", wrong, surfaces, first);
 }
 
 FrameCounters summarize(const PixelCounts& counts, const ContributingLights& truth,

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,10 +38,27 @@ FrameCounters summarize(const PixelCounts& counts, const ContributingLights& tru
                         const std::vector<uint8_t>& lit, const PrepareCounters& prepare);
 
 // Why the counters of a frame cannot be right, whatever the lists are; empty when they may be. The reference
-// tests every light at every pixel with a surface, `ideal` lists and tests what contributes, and nobody lists
-// more lights than there are, evaluates what it has not listed, or counts where there is no surface.
+// tests every light at every pixel with a surface, `ideal` lists and tests what contributes to the pixel or,
+// where it walks `LightLists::groups`, to some pixel of its group, and nobody lists more lights than there
+// are, evaluates what it has not listed, or counts where there is no surface.
 std::string miscounted(const AlgorithmInfo& info, const PixelCounts& counts, const ContributingLights& truth,
-                       const std::vector<uint8_t>& lit, size_t lights);
+                       const std::vector<uint8_t>& lit, size_t lights, LightLists walk);
+
+// How many lights the list of a pixel holds at a view depth (m), where that is known
+// (Algorithm::lights_listed).
+using ListLength = std::function<std::optional<uint32_t>(glm::uvec2 pixel, float depth)>;
+// View depths of the surface points of a frame. A device may round them otherwise: by so many metres, or this
+// part of the depth.
+struct ViewDepths {
+  std::vector<float> depth;  // m, row by row; 0: sky
+  uint32_t width = 0;        // px
+  float absolute = 0, relative = 1e-6f;
+};
+// Of the loaded frame.
+ViewDepths view_depths(DeviceFrame& frame, const gpu_data::ViewData& view);
+// Why what pixels listed cannot be right: it is not what their lists hold; empty when it is, or when nobody
+// knows. Within rounding of the boundary of two cells either list is right.
+std::string mislisted(const PixelCounts& counts, const ViewDepths& depths, const ListLength& list);
 
 // Which pixels of the loaded frame have a surface.
 std::vector<uint8_t> lit_pixels(DeviceFrame& frame);

@@ -119,7 +119,7 @@ std::vector<std::filesystem::path> render_frame(const Config& config, const Rend
   frame.load(input);
   require_surface(setup, frame.seen_blocks().places().empty(), 1);
   tell_books(setup, workload, 0, 1);
-  if (entry.info.needs_contributing_lists) frame.find_contributing(input, true);
+  if (entry.info.needs_contributing_lists) frame.find_contributing(input, algorithm.wanted_lists());
   Spans spans;
   algorithm.prepare(input, spans, frame.seen_blocks().places());
   algorithm.count(frame, input);

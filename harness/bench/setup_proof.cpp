@@ -123,6 +123,7 @@ SetupProof::SetupProof(gpu::Device& device, const Config& config, const std::vec
     entries_.push_back(&find_algorithm(spec.name, item.id));
     algorithms_.push_back(
         std::make_unique<ShadedAlgorithm>(device, *entries_.back(), spec.parameters, workload_.options()));
+    lists_ = std::max(lists_, algorithms_.back()->wanted_lists());
   }
 }
 
@@ -154,8 +155,9 @@ void SetupProof::prove(const std::vector<uint32_t>& frames, Progress& progress) 
     stop_if_interrupted();
     const FrameInput& input = workload_.frames().at(index);
     frame_.load(input);
-    frame_.find_contributing(input, true);
+    frame_.find_contributing(input, lists_);
     lit_ = lit_pixels(frame_);
+    depths_ = view_depths(frame_, input.view);
     prove_references(input, index);
     const bool first = index == frames.front();
     auto advance = [&](StepKind kind, double expected, const std::string& what) {
@@ -257,8 +259,12 @@ void SetupProof::prove_case(size_t i, const FrameInput& input) {
   for (size_t pixel = 0; pixel < lit_.size(); ++pixel)
     judge_->against_each_other(image, ideal_image_, pixel, lit_[pixel] != 0, tally.to_ideal);
   if (tally.miscounted.empty())
-    tally.miscounted =
-        miscounted(entries_[i]->info, counts, frame_.contributing(), lit_, input.lights.count());
+    tally.miscounted = miscounted(entries_[i]->info, counts, frame_.contributing(), lit_,
+                                  input.lights.count(), algorithm.wanted_lists());
+  if (tally.miscounted.empty())
+    tally.miscounted = mislisted(counts, depths_, [&](glm::uvec2 pixel, float depth) {
+      return algorithm.lights_listed(pixel, depth);
+    });
 
   // The second time, and the timed program instead of the counting one.
   algorithm.prepare(input, spans, frame_.seen_blocks().places());

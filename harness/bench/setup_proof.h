@@ -61,8 +61,10 @@ class SetupProof {
   std::unique_ptr<ShadedAlgorithm> brute_, brute64_, ideal_;
   std::vector<std::unique_ptr<ShadedAlgorithm>> algorithms_;
   std::vector<Tally> tallies_;
+  LightLists lists_ = LightLists::pixels;  // for ideal
   // Of the frame at hand.
   std::vector<uint8_t> lit_;
+  ViewDepths depths_;
   std::vector<glm::u16vec2> blocks_;
   std::vector<size_t> sampled_;
   Picture brute_image_, ideal_image_;

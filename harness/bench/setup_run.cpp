@@ -82,7 +82,7 @@ SetupRun::SetupRun(gpu::Device& device, const Config& config, const std::vector<
     const AlgorithmEntry& entry = find_algorithm(spec.name, item.id);
     algorithms_.push_back(
         std::make_unique<ShadedAlgorithm>(device_, entry, spec.parameters, workload_.options()));
-    wants_lists_ |= entry.info.needs_contributing_lists;
+    lists_ = std::max(lists_, algorithms_.back()->wanted_lists());
     results_.push_back(empty_result(device_, config_, item, workload_));
     results_.back().overlap = expected_overlap(device_, setup_of(config_, cases_).shading, entry.info,
                                                config_.measure, workload_.frames().frames());
@@ -102,16 +102,21 @@ void SetupRun::load(uint32_t index, bool lists) {
   }
   if (lists) {
     auto span = log_.span("contributing lights");
-    frame_.find_contributing(*input_, wants_lists_);
+    frame_.find_contributing(*input_, lists_);
   }
 }
 
 void SetupRun::check_counts(size_t i, const PixelCounts& counts, const std::vector<uint8_t>& lit,
-                            const FrameCounters& counters) {
+                            const ViewDepths& depths, const FrameCounters& counters) {
   CaseResult& result = results_[i];
   if (result.invalid) return;
   const AlgorithmInfo& info = algorithms_[i]->info();
-  result.invalid_note = miscounted(info, counts, frame_.contributing(), lit, input_->lights.count());
+  result.invalid_note = miscounted(info, counts, frame_.contributing(), lit, input_->lights.count(),
+                                   algorithms_[i]->wanted_lists());
+  if (result.invalid_note.empty())
+    result.invalid_note = mislisted(counts, depths, [&](glm::uvec2 pixel, float depth) {
+      return algorithms_[i]->lights_listed(pixel, depth);
+    });
   // What the user's caps cut off is counted and told.
   if (result.invalid_note.empty() && info.exact && counters.mismatched_pixels > 0 &&
       counters.prepare.overflow_lights == 0)
@@ -130,9 +135,11 @@ void SetupRun::counting_lap(const Step& done, bool tell) {
     load(index, true);
     unseen += frame_.seen_blocks().places().empty();
     std::vector<uint8_t> lit;
+    ViewDepths depths;
     {
       auto span = log_.span("counting");
       lit = lit_pixels(frame_);
+      depths = view_depths(frame_, input_->view);
     }
     for (size_t i = 0; i < cases_.size(); ++i) {
       stop_if_interrupted();
@@ -146,7 +153,7 @@ void SetupRun::counting_lap(const Step& done, bool tell) {
       const PixelCounts counts = read_counts(frame_);
       const FrameCounters counters =
           summarize(counts, frame_.contributing(), lit, algorithms_[i]->counters());
-      check_counts(i, counts, lit, counters);
+      check_counts(i, counts, lit, depths, counters);
       for (const auto& [name, value] : counters.named()) results_[i].counters[name].push_back(value);
       done(index == 0 ? StepKind::programs : StepKind::counting, i, "counting " + cases_[i].id);
     }
@@ -170,7 +177,7 @@ void SetupRun::timed_lap(uint32_t lap, const Step& done) {
       config_.measure.mode == TimingMode::stages ? gpu::Timing::stages : gpu::Timing::whole;
   const auto count = static_cast<uint32_t>(cases_.size());
   for (uint32_t index = 0; index < workload_.frames().frames(); ++index) {
-    load(index, wants_lists_);
+    load(index, lists_ != LightLists::none);
     for (uint32_t i : interleaved_order(count, config_.measure.seed, lap, index)) {
       stop_if_interrupted();
       ShadedAlgorithm& algorithm = *algorithms_[i];

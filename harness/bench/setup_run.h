@@ -46,7 +46,7 @@ class SetupRun {
   void load(uint32_t index, bool lists);
   // Marks the case as invalid, with an error line, when the counters of the frame at hand cannot be right.
   void check_counts(size_t i, const PixelCounts& counts, const std::vector<uint8_t>& lit,
-                    const FrameCounters& counters);
+                    const ViewDepths& depths, const FrameCounters& counters);
 
   gpu::Device& device_;
   const Config& config_;
@@ -57,7 +57,7 @@ class SetupRun {
   std::vector<std::unique_ptr<ShadedAlgorithm>> algorithms_;
   std::vector<CaseResult> results_;
   std::vector<uint32_t> contradictions_;  // per case: samples whose times do not agree
-  bool wants_lists_ = false;
+  LightLists lists_ = LightLists::none;   // the most that a case wants
   const FrameInput* input_ = nullptr;
   Spans spans_;
 };

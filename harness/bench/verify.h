@@ -35,7 +35,7 @@ struct VerifyOptions {
 //  against the double-precision oracle
 //    at sampled points;
 //  - brute force in single against double precision, where the device has it;
-//  - for each case: counters that agree with each other (miscounted());
+//  - for each case: counters that agree with each other (miscounted()) and with the lists (mislisted());
 //  - for each exact case: lost = 0 and no light twice on every pixel; image equal to brute force on the
 //  sampled blocks and to `ideal` on all
 //    others; nothing NaN or infinite; the same bytes from 1, 2 and 7 threads; the same image bits and

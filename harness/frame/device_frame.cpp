@@ -8,6 +8,7 @@
 #include "harness/base/error.h"
 #include "harness/frame/shading_loops.h"
 #include "shaders/shared/contributing.h"
+#include "shaders/shared/pixel_groups.h"
 #include "spirv/aov_comp.h"
 #include "spirv/contributing_bounds.h"
 #include "spirv/contributing_count.h"
@@ -35,6 +36,8 @@ struct DeviceFrame::ContributingPasses {
   std::unique_ptr<gpu::Buffer> block_bounds, mask_words;
   gpu::UploadBuffer offsets;
   std::unique_ptr<gpu::Buffer> indices;
+  gpu::UploadBuffer group_offsets, group_indices;
+  std::unique_ptr<gpu::Buffer> read_indices;
 
   ContributingPasses(gpu::Device& device, const FrameOptions& options, uint32_t width, uint32_t height)
       : bounds(device, contributing_bounds, "contributing: bounds", options.constants(device)),
@@ -45,17 +48,20 @@ struct DeviceFrame::ContributingPasses {
                     "contributing counts"),
         hash_image(device, width, height, gpu::Format::r32_uint, gpu::ImageUse::storage,
                    "contributing hashes"),
-        offsets(device, "offsets of the contributing lists") {
+        offsets(device, "offsets of the contributing lists"),
+        group_offsets(device, "offsets of the groups' contributing lists"),
+        group_indices(device, "the groups' contributing lists") {
     offsets.map(16);
+    group_offsets.map(16);
+    group_indices.map(16);
     indices = std::make_unique<gpu::Buffer>(device, 16, gpu::MemoryKind::device, "contributing lists");
   }
 
   // Grows, never shrinks.
   static void reserve(gpu::Device& device, std::unique_ptr<gpu::Buffer>& buffer, size_t bytes,
-                      const char* name) {
+                      const char* name, gpu::MemoryKind kind = gpu::MemoryKind::device) {
     if (!buffer || buffer->bytes() < bytes)
-      buffer =
-          std::make_unique<gpu::Buffer>(device, std::max<size_t>(bytes, 16), gpu::MemoryKind::device, name);
+      buffer = std::make_unique<gpu::Buffer>(device, std::max<size_t>(bytes, 16), kind, name);
   }
 };
 
@@ -131,7 +137,9 @@ gpu::Bindings DeviceFrame::bindings() const {
                      // Not written where there is one target.
                      {"Specular", targets_.specular ? *targets_.specular : targets_.result},
                      {"ListOffsets", passes_->offsets},
-                     {"ListIndices", *passes_->indices}};
+                     {"ListIndices", *passes_->indices},
+                     {"GroupOffsets", passes_->group_offsets},
+                     {"GroupIndices", passes_->group_indices}};
   if (counters_)
     for (const auto& [name, image] : counters_->named()) list.emplace_back(name, *image);
   return list;
@@ -145,8 +153,9 @@ uint64_t DeviceFrame::target_bytes() const {
   return sum;
 }
 
-const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input, bool lists) {
+const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input, LightLists lists) {
   ContributingPasses& p = *passes_;
+  contributing_.group.clear();
   uint32_t width = targets_.width(), height = targets_.height();
   gpu_data::ContributingPush push{{groups(width, ML_BLOCK), groups(height, ML_BLOCK)},
                                   groups(static_cast<uint32_t>(input.lights.count()), 32),
@@ -186,16 +195,17 @@ const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input
   commands_.submit();
   contributing_.count = read_words(p.count_image);
   contributing_.hash = read_words(p.hash_image);
-  if (!lists) return contributing_;
+  if (lists == LightLists::none) return contributing_;
 
   size_t pixels = contributing_.count.size();
-  auto offsets = std::span(reinterpret_cast<uint32_t*>(p.offsets.map((pixels + 1) * 4).data()), pixels + 1);
+  std::vector<uint32_t> offsets(pixels + 1);
   uint64_t total = 0;
   for (size_t i = 0; i < pixels; ++i) {
     offsets[i] = static_cast<uint32_t>(total);
     total += contributing_.count[i];
   }
   offsets[pixels] = static_cast<uint32_t>(total);
+  upload(p.offsets, std::span<const uint32_t>(offsets));
   if (total * 4 > device_.limits().storage_buffer_range)
     throw SystemError(fmt::format(
         "the lists of contributing lights need {} bytes at {}x{} px; one storage buffer of '{}' holds {}",
@@ -206,7 +216,56 @@ const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input
   commands_.transfer(p.offsets);
   every_range(p.fill, list);
   commands_.submit();
+  if (lists == LightLists::groups) merge_groups(offsets);
   return contributing_;
+}
+
+// On the CPU: nothing of it is timed, and lists may be of any length.
+void DeviceFrame::merge_groups(std::span<const uint32_t> offsets) {
+  ContributingPasses& p = *passes_;
+  const uint32_t width = targets_.width(), height = targets_.height(), blocks = groups(width, ML_BLOCK);
+  const uint32_t pixels = gpu_data::group_pixels(device_.limits().subgroup_size);
+  const uint32_t count = blocks * groups(height, ML_BLOCK) * (ML_BLOCK * ML_BLOCK / pixels);
+  const size_t bytes = size_t{offsets.back()} * 4;
+  p.reserve(device_, p.read_indices, bytes, "contributing lists, read back", gpu::MemoryKind::readback);
+  if (bytes > 0) {
+    commands_.begin(gpu::Timing::none);
+    commands_.read_buffer(*p.indices, bytes, *p.read_indices);
+    commands_.submit();
+  }
+  const auto* of_pixels = reinterpret_cast<const uint32_t*>(p.read_indices->mapped().data());
+  auto ends =
+      std::span(reinterpret_cast<uint32_t*>(p.group_offsets.map((count + size_t{1}) * 4).data()), count + 1);
+  // No longer than those of pixels.
+  auto* merged = reinterpret_cast<uint32_t*>(p.group_indices.map(bytes).data());
+  contributing_.group.assign(contributing_.count.size(), 0);
+  std::vector<uint32_t> lights;
+  std::vector<size_t> members;
+  uint32_t written = 0;
+  for (uint32_t group = 0; group < count; ++group) {
+    ends[group] = written;
+    lights.clear();
+    members.clear();
+    for (uint32_t i = 0; i < pixels; ++i) {
+      const uint32_t thread = group * pixels + i, block = thread / (ML_BLOCK * ML_BLOCK);
+      const glm::uvec2 pixel = glm::uvec2(block % blocks, block / blocks) * ML_BLOCK +
+                               gpu_data::place_in_block(thread % (ML_BLOCK * ML_BLOCK));
+      if (pixel.x >= width || pixel.y >= height) continue;
+      const size_t place = size_t{pixel.y} * width + pixel.x;
+      members.push_back(place);
+      lights.insert(lights.end(), of_pixels + offsets[place], of_pixels + offsets[place + 1]);
+    }
+    std::ranges::sort(lights);
+    lights.erase(std::ranges::unique(lights).begin(), lights.end());
+    std::ranges::copy(lights, merged + written);
+    written += static_cast<uint32_t>(lights.size());
+    for (size_t place : members) contributing_.group[place] = static_cast<uint32_t>(lights.size());
+  }
+  ends[count] = written;
+  commands_.begin(gpu::Timing::none);
+  commands_.transfer(p.group_offsets);
+  commands_.transfer(p.group_indices);
+  commands_.submit();
 }
 
 void DeviceFrame::read_image(const gpu::Image& image) {

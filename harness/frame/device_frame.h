@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "algorithms/algorithm.h"
@@ -21,7 +22,14 @@ namespace ml {
 struct ContributingLights {
   std::vector<uint32_t> count;  // per pixel
   std::vector<uint32_t> hash;   // per pixel: sum of light_hash over the set
+  // Per pixel: lights that contribute to some pixel of its group; empty where lists of groups were not asked
+  // for.
+  std::vector<uint32_t> group = {};
 };
+
+// Which lists of contributing lights are made: none, one for each pixel, or one for each group of pixels too
+// that a subgroup of the device shades (shaders/shared/pixel_groups.h).
+enum class LightLists { none, pixels, groups };
 
 class DeviceFrame {
  public:
@@ -37,9 +45,9 @@ class DeviceFrame {
 
   // Finds the contributing lights of the loaded frame (bounds of each 8x8 block's points against every light,
   // then every pixel against what is left). With `lists` their indices stay on the device for shading passes
-  // that bind "ListOffsets" and "ListIndices". Throws SystemError when the lists are larger than one storage
-  // buffer of the device.
-  const ContributingLights& find_contributing(const FrameInput& input, bool lists);
+  // that bind "ListOffsets" and "ListIndices", those of groups "GroupOffsets" and "GroupIndices"; all ascend.
+  // Throws SystemError when the lists are larger than one storage buffer of the device.
+  const ContributingLights& find_contributing(const FrameInput& input, LightLists lists);
   const ContributingLights& contributing() const { return contributing_; }
 
   gpu::Device& device() { return device_; }
@@ -76,6 +84,8 @@ class DeviceFrame {
  private:
   void read_image(const gpu::Image& image);
   void clear_results();  // records it
+  // Merges the lists of pixels, which are on the device, into those of groups.
+  void merge_groups(std::span<const uint32_t> offsets);
 
   gpu::Device& device_;
   FrameOptions options_;

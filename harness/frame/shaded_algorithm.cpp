@@ -103,7 +103,7 @@ ShadingLoop ShadedAlgorithm::loop_of(const DeviceFrame& frame, const FrameInput&
   if (options_.tests.long_walks) return {together, true};
   LongestWalk walk = algorithm_->longest_walk(input);
   if (entry_.info.needs_contributing_lists) {
-    const std::vector<uint32_t>& counts = frame.contributing().count;
+    const std::vector<uint32_t>& counts = together ? frame.contributing().group : frame.contributing().count;
     walk = {counts.empty() ? 0 : std::ranges::max(counts), 0};
   }
   walk.lights = std::min<uint64_t>(walk.lights, range());

@@ -36,9 +36,18 @@ class ShadedAlgorithm final : private UploadMemory {
   uint64_t upload_digest() const;
 
   PrepareCounters counters() const { return algorithm_->counters(); }
+  // After count() (Algorithm::lights_listed).
+  std::optional<uint32_t> lights_listed(glm::uvec2 pixel, float depth) const {
+    return algorithm_->lights_listed(pixel, depth);
+  }
   // Bytes of the buffers that the GPU reads, as allocated.
   uint64_t upload_bytes() const;
   const AlgorithmInfo& info() const { return entry_.info; }
+  // The lists of contributing lights that its shading binds.
+  LightLists wanted_lists() const {
+    if (!entry_.info.needs_contributing_lists) return LightLists::none;
+    return together_ ? LightLists::groups : LightLists::pixels;
+  }
 
  private:
   std::span<std::byte> map(uint32_t slot, size_t bytes) override;

@@ -26,12 +26,24 @@ uint64_t alone(const LongestWalk& walk, uint32_t lanes, bool long_walks) {
   return lanes * calls + calls;
 }
 
+// Of masked_runs() and its caller's loop in one cell (algorithms/trees/masked_walk.glsl).
+uint64_t merged(uint64_t subtrees, uint64_t lanes) {
+  // Of a tree there are no more nodes above its subtrees than subtrees and levels; each is an iteration, as
+  // is each subtree, and each half of its leaves one of the caller's.
+  const uint64_t above = subtrees + 5;
+  // Eight nodes are asked at a time: the upper ones, and the leaves below each of those. A node that is left
+  // out asks once too, where a processor takes its lanes through every loop once.
+  const uint64_t fetches = divided_up(8, std::min<uint64_t>(lanes, 8));
+  return subtrees * (3 + fetches + 8 * (1 + fetches)) + above * (2 + 2 * fetches + 1);
+}
+
 // Of one cell. What ends a loop is the same for all lanes.
 uint64_t together_in_cell(const LongestWalk& walk, uint32_t lanes, bool long_walks, bool test_ahead) {
   // At least as many nodes as there are lanes are taken by an iteration of tree_runs(), and by one of its
   // caller's loop. Half of the nodes are leaves, each a run of lights of its own; all lights of a list are
   // one run.
   const uint64_t node_batches = walk.nodes / lanes + 2, runs = (walk.nodes + 1) / 2 + 1;
+  const uint64_t walked = walk.subtrees > 0 ? merged(walk.subtrees, lanes) : 2 * node_batches;
   // The last batch of a run may be short.
   const uint64_t light_batches = walk.lights / lanes + runs;
   const uint64_t tests =
@@ -39,7 +51,7 @@ uint64_t together_in_cell(const LongestWalk& walk, uint32_t lanes, bool long_wal
   const uint64_t around = 2 + (test_ahead ? 1 : 0);  // the loops over batches themselves
   // A light is added at most once by each lane, all lanes at a time.
   const uint64_t added = long_walks ? light_batches * divided_up(lanes, unrolled) : walk.lights;
-  return 2 * node_batches + light_batches * (around + tests) + added;
+  return walked + light_batches * (around + tests) + added;
 }
 
 }  // namespace

@@ -36,15 +36,15 @@ TEST_P(FrustumList, LosesNoLight) {
   Workload workload(config.setups.front(), 1);
   gpu::Device device({.selector = "", .validation = true});
   FrameSequence& frames = workload.frames();
-  DeviceFrame frame(device, *workload.scene(), workload.effects(), frames.width(), frames.height());
+  DeviceFrame frame(device, *workload.scene(), workload.options(), frames.width(), frames.height());
   const AlgorithmEntry entry = frustum_list_entry();
-  ShadedAlgorithm algorithm(device, entry, with_sides(entry, GetParam()), workload.effects());
+  ShadedAlgorithm algorithm(device, entry, with_sides(entry, GetParam()), workload.options());
   Spans spans;
   double contributing = 0;
   for (uint32_t index = 0; index < frames.frames(); ++index) {
     const FrameInput& input = frames.at(index);
     frame.load(input);
-    frame.find_contributing(input, false);
+    frame.find_contributing(input, LightLists::none);
     algorithm.prepare(input, spans, frame.seen_blocks().places());
     algorithm.count(frame, input);
     FrameCounters counters =

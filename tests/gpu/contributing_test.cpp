@@ -24,7 +24,7 @@ TEST_F(Contributing, IsTheOraclesCountAtEveryPixel) {
   input.view = view_data(camera, width, height, static_cast<uint32_t>(lights.size()));
   input.lights = storage.lights();
   frame.load(input);
-  const ContributingLights truth = frame.find_contributing(input, true);
+  const ContributingLights truth = frame.find_contributing(input, LightLists::pixels);
   const std::vector<uint8_t> lit = lit_pixels(frame);
   OracleFrame oracle(frame, input);
   uint64_t marginal = 0, total = 0;
@@ -65,7 +65,7 @@ TEST_F(Contributing, IsThePlanesKnownMean) {
     input.view = view_data(camera, width, height, static_cast<uint32_t>(set.base().size()));
     input.lights = storage.lights();
     frame.load(input);
-    const ContributingLights& truth = frame.find_contributing(input, false);
+    const ContributingLights& truth = frame.find_contributing(input, LightLists::none);
     means.push_back(
         static_cast<double>(std::accumulate(truth.count.begin(), truth.count.end(), uint64_t{0})) /
         (width * height));
@@ -86,9 +86,9 @@ TEST_F(Contributing, ListsNeedNoMoreThanTheDeviceCanShow) {
   input.view = view_data(camera, width, height, 5000);
   input.lights = storage.lights();
   frame.load(input);
-  EXPECT_EQ(frame.find_contributing(input, false).count[0], 5000u);
+  EXPECT_EQ(frame.find_contributing(input, LightLists::none).count[0], 5000u);
   try {
-    frame.find_contributing(input, true);
+    frame.find_contributing(input, LightLists::pixels);
     ADD_FAILURE() << "no error";
   } catch (const std::runtime_error& error) {
     const std::string text = error.what();

@@ -50,7 +50,7 @@ TEST_F(HardCases, FinePruned_TilesWithoutRoomWalkAllVisibleLights) {
     SCOPED_TRACE(walk);
     Parameters parameters(real.parameters);
     parameters.set(real.parameters, "walk", std::string(walk), "test");
-    ShadedAlgorithm starved(device(), entry, parameters, check.frame().effects());
+    ShadedAlgorithm starved(device(), entry, parameters, check.frame().options());
     Spans spans;
     starved.prepare(check.input(), spans, check.frame().seen_blocks().places());
     ASSERT_EQ(starved.counters().in_frustum, 380u);

@@ -48,7 +48,7 @@ TEST_F(HardCases, Case40_ResolutionChangesBetweenFrames) {
     input.lights = storage.lights();
     input.threads = &threads;
     frame.load(input);
-    const ContributingLights truth = frame.find_contributing(input, false);
+    const ContributingLights truth = frame.find_contributing(input, LightLists::none);
     Spans spans;
     algorithm.prepare(input, spans, frame.seen_blocks().places());
     algorithm.count(frame, input);

@@ -29,7 +29,7 @@ void PrunedCheck::load(const Camera& camera, const std::vector<Light>& lights) {
   input_.view = view_data(camera, targets.width(), targets.height(), static_cast<uint32_t>(lights.size()));
   input_.lights = storage_.lights();
   frame_.load(input_);
-  truth_ = frame_.find_contributing(input_, false);
+  truth_ = frame_.find_contributing(input_, LightLists::none);
   lit_ = lit_pixels(frame_);
   Spans spans;
   brute_.prepare(input_, spans, frame_.seen_blocks().places());
@@ -47,7 +47,7 @@ ShadedAlgorithm& PrunedCheck::algorithm(const PrunedSettings& settings) {
     parameters.set(entry().parameters, "bounds", settings.bounds, "test");
     parameters.set(entry().parameters, "tile_depths", settings.tile_depths, "test");
     parameters.set(entry().parameters, "region_lights", int64_t{settings.region_lights}, "test");
-    made = std::make_unique<ShadedAlgorithm>(device(), entry(), parameters, frame_.effects());
+    made = std::make_unique<ShadedAlgorithm>(device(), entry(), parameters, frame_.options());
   }
   return *made;
 }

@@ -40,6 +40,9 @@ class Exactness::Replaceable final : public Algorithm {
   }
   void gpu_bindings(std::vector<gpu::Binding>& bindings) const override { (*inner_)->gpu_bindings(bindings); }
   void read_counters(gpu::Commands& commands) override { (*inner_)->read_counters(commands); }
+  std::optional<uint32_t> lights_listed(glm::uvec2 pixel, float depth) const override {
+    return (*inner_)->lights_listed(pixel, depth);
+  }
 
  private:
   std::shared_ptr<std::unique_ptr<Algorithm>> inner_;
@@ -51,8 +54,9 @@ const AlgorithmEntry& entry_of(const std::string& name) {
   return find_algorithm(name, "test");
 }
 
-// The algorithm's parameters that the grid has a word for; the others at their defaults.
-Trial trial_of(const std::string& algorithm, const GridSettings& grid, bool alone) {
+// The algorithm's parameters that the grid has a word for, and the walk that it is the turn of; the others at
+// their defaults.
+Trial trial_of(const std::string& algorithm, const GridSettings& grid, size_t turn) {
   const std::vector<ParameterInfo>& infos = entry_of(algorithm).parameters;
   Trial trial{algorithm, Parameters(infos)};
   const std::pair<const char*, ParameterValue> values[] = {
@@ -65,10 +69,12 @@ Trial trial_of(const std::string& algorithm, const GridSettings& grid, bool alon
       {"index_bits", std::string(grid.refinement && !grid.duplicated ? "16" : "32")},
       {"node_depths", std::string(grid.ball_test ? "chord" : "ball")},
       {"light_data", std::string(grid.duplicated ? "duplicated" : "indexed")},
-      {"walk", std::string(alone ? "pixel" : "subgroup")},
   };
   for (const auto& [name, value] : values)
     if (trial.parameters.values().contains(name)) trial.parameters.set(infos, name, value, "test");
+  for (const ParameterInfo& info : infos)
+    if (info.name == "walk")
+      trial.parameters.set(infos, info.name, info.choices[turn % info.choices.size()], "test");
   return trial;
 }
 
@@ -94,6 +100,13 @@ ParameterValue random_value(const ParameterInfo& info, Random& random) {
   return static_cast<int64_t>(std::clamp(std::round(value), info.minimum, info.maximum));
 }
 
+ShadedAlgorithm ideal_with(const char* walk, const FrameOptions& options) {
+  const AlgorithmEntry& entry = entry_of("ideal");
+  Parameters parameters(entry.parameters);
+  parameters.set(entry.parameters, "walk", std::string(walk), "test");
+  return ShadedAlgorithm(device(), entry, parameters, options);
+}
+
 // Pixels whose count or set of contributing lights is not the reference's.
 uint64_t mismatches(const PixelCounts& counts, const ContributingLights& truth) {
   uint64_t wrong = 0;
@@ -115,8 +128,8 @@ std::vector<Trial> trials_of(const std::vector<GridSettings>& grids) {
   static const std::vector<std::string> other = others();
   std::vector<Trial> trials;
   for (size_t i = 0; i < grids.size(); ++i) {
-    trials.push_back(trial_of("clustered", grids[i], i % 2 == 1));
-    trials.push_back(trial_of(other[i % other.size()], grids[i], i / other.size() % 2 == 1));
+    trials.push_back(trial_of("clustered", grids[i], i));
+    trials.push_back(trial_of(other[i % other.size()], grids[i], i / other.size()));
   }
   return trials;
 }
@@ -158,7 +171,7 @@ uint64_t Seen::lit_pixels() const {
 Exactness::Exactness(const Scene& scene, uint32_t width, uint32_t height, const FrameOptions& options)
     : frame_(device(), scene, options, width, height),
       brute_(device(), entry_of("brute_force"), Parameters(entry_of("brute_force").parameters), options),
-      ideal_(device(), entry_of("ideal"), {}, options) {
+      ideals_{ideal_with("pixel", options), ideal_with("subgroup", options)} {
   input_.threads = &threads_;
 }
 
@@ -179,7 +192,7 @@ Exactness::Slot& Exactness::slot_of(const Trial& trial) {
       return std::make_unique<Replaceable>(inner);
     };
     slot.shaded = std::make_unique<ShadedAlgorithm>(device(), slot.entry, Parameters(real.parameters),
-                                                    frame_.effects());
+                                                    frame_.options());
   } else if (!own_passes) {
     *slot.inner = std::move(made);
   }
@@ -189,12 +202,12 @@ Exactness::Slot& Exactness::slot_of(const Trial& trial) {
 Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& lights,
                               const std::vector<Trial>& trials, uint32_t oracle_points) {
   for (const Light& light : lights) EXPECT_EQ(rejection_reason(light), nullptr) << rejection_reason(light);
-  storage_.fill(lights, camera.position, frame_.effects().shapes());
+  storage_.fill(lights, camera.position, frame_.options().effects.shapes());
   input_.view = view_data(camera, width(), height(), static_cast<uint32_t>(lights.size()));
   input_.lights = storage_.lights();
   frame_.load(input_);
   Seen seen;
-  seen.truth = frame_.find_contributing(input_, true);
+  seen.truth = frame_.find_contributing(input_, LightLists::groups);
   seen.lit = ml::lit_pixels(frame_);
 
   Spans spans;
@@ -209,11 +222,15 @@ Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& li
   EXPECT_EQ(cut_short, 0u) << "pixels for which brute force did not look at every light";
   EXPECT_EQ(compare_images(seen.image, seen.image).not_finite, 0u) << "brute_force";
 
-  ideal_.prepare(input_, spans, frame_.seen_blocks().places());
-  ideal_.count(frame_, input_);
-  {
-    SCOPED_TRACE("ideal");
-    EXPECT_EQ(mismatches(read_counts(frame_), seen.truth), 0u) << "pixels";
+  for (ShadedAlgorithm& ideal : ideals_) {
+    SCOPED_TRACE(ideal.wanted_lists() == LightLists::groups ? "ideal, together" : "ideal");
+    ideal.prepare(input_, spans, frame_.seen_blocks().places());
+    ideal.count(frame_, input_);
+    const PixelCounts counts = read_counts(frame_);
+    EXPECT_EQ(mismatches(counts, seen.truth), 0u) << "pixels";
+    EXPECT_EQ(
+        miscounted(ideal.info(), counts, seen.truth, seen.lit, input_.lights.count(), ideal.wanted_lists()),
+        "");
     expect_same_image(result_picture(frame_), seen);
   }
   for (const Trial& trial : trials) {
@@ -229,7 +246,7 @@ void Exactness::expect_same_image(const Picture& image, const Seen& seen) {
   EXPECT_EQ(difference.not_finite, 0u);
   if (difference.max_relative <= plain_rounding) return;
   const OracleFrame oracle(frame_, input_);
-  PictureJudge judge(oracle, frame_.effects().specular, seen.truth.count);
+  PictureJudge judge(oracle, frame_.options().effects.specular, seen.truth.count);
   PictureProof proof;
   for (size_t pixel = 0; pixel < seen.lit.size(); ++pixel)
     judge.against_each_other(image, seen.image, pixel, seen.lit[pixel] != 0, proof);
@@ -251,7 +268,12 @@ void Exactness::expect_trial(const Trial& trial, Seen& seen) {
   EXPECT_EQ(frame.prepare.overflow_tiles, 0u);
   EXPECT_EQ(frame.prepare.overflow_lights, 0u);
   EXPECT_LE(frame.prepare.in_frustum, input_.lights.count());
-  EXPECT_EQ(miscounted(algorithm.info(), counts, seen.truth, seen.lit, input_.lights.count()), "");
+  EXPECT_EQ(miscounted(algorithm.info(), counts, seen.truth, seen.lit, input_.lights.count(),
+                       algorithm.wanted_lists()),
+            "");
+  EXPECT_EQ(mislisted(counts, view_depths(frame_, input_.view),
+                      [&](glm::uvec2 pixel, float depth) { return algorithm.lights_listed(pixel, depth); }),
+            "");
   expect_same_image(image, seen);
 
   // Again, with the timed program, and prepared anew by other numbers of threads.
@@ -281,7 +303,7 @@ void Exactness::expect_oracle(const Seen& seen, uint32_t points) {
     if (seen.lit[i]) lit.push_back(i);
   ASSERT_FALSE(lit.empty()) << "the camera sees no surface";
   const OracleFrame oracle(frame_, input_);
-  PictureJudge judge(oracle, frame_.effects().specular, seen.truth.count);
+  PictureJudge judge(oracle, frame_.options().effects.specular, seen.truth.count);
   PictureProof proof;
   for (uint32_t n = 0; n < std::min<size_t>(points, lit.size()); ++n) {
     const size_t pixel = lit[(2 * size_t{n} + 1) * lit.size() / (2 * std::min<size_t>(points, lit.size()))];

@@ -2,6 +2,7 @@
 // again, and the oracle's answer.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -38,7 +39,7 @@ struct Trial {
 };
 
 // Every algorithm takes its turn with the grids: clustered with each, and one other with each; pixels walk
-// alone and together by turns.
+// alone and together, in every way, by turns.
 std::vector<Trial> trials_of(const std::vector<GridSettings>& grids);
 
 // Any exact algorithm with any parameters that `list` names.
@@ -99,8 +100,9 @@ class Exactness {
   void expect_oracle(const Seen& seen, uint32_t points);
 
   DeviceFrame frame_;
-  ShadedAlgorithm brute_, ideal_;
-  std::map<std::string, Slot> slots_;  // by algorithm and what is compiled into its programs
+  ShadedAlgorithm brute_;
+  std::array<ShadedAlgorithm, 2> ideals_;  // of each walk
+  std::map<std::string, Slot> slots_;      // by algorithm and what is compiled into its programs
   FrameLightStorage storage_;
   Threads threads_;
   FrameInput input_;

@@ -19,7 +19,11 @@ class PlainMemory final : public UploadMemory {
   size_t limit() const override { return size_t{1} << 30; }
   bool cached(uint32_t) const override { return cached_; }
 
-  // What the last prepare() wrote, slot by slot.
+  // What the last prepare() wrote into a slot.
+  std::span<const std::byte> slot(uint32_t index) const {
+    return std::span(slots_[index]).first(used_[index]);
+  }
+  // The same of all, slot by slot.
   std::vector<std::byte> all() const {
     std::vector<std::byte> bytes;
     for (size_t slot = 0; slot < slots_.size(); ++slot)

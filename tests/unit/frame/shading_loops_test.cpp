@@ -91,6 +91,30 @@ TEST(ShadingLoops, RunsWalkedTogetherStayWithinTheBound) {
   }
 }
 
+// masked_runs() of algorithms/trees/masked_walk.glsl over a full tree of 2^height leaves all of which are
+// hit, with the loop that asks for the next ones.
+uint64_t play_masked(uint32_t height, uint32_t lanes) {
+  const uint64_t fetches = (8 + std::min(lanes, 8u) - 1) / std::min(lanes, 8u);
+  // An if is taken through by all lanes, its loop once.
+  if (height > 6) return 1 + 2 * fetches + 1 + 2 * play_masked(height - 1, lanes);
+  const uint64_t upper = height > 3 ? uint64_t{1} << (height - 3) : 1;
+  return 1 + fetches + upper * (1 + fetches) + (height == 6 ? 2 : 1);
+}
+
+TEST(ShadingLoops, MergedLeavesStayWithinTheBound) {
+  for (uint32_t height = 0; height <= 11; ++height)
+    for (uint32_t lanes : {1u, 2u, 4u, 8u, 16u, 32u}) {
+      const uint64_t leaves = uint64_t{1} << height, nodes = 2 * leaves;
+      const LongestWalk walk{leaves, nodes, nodes / 128 + 1};
+      // Every leaf is a run of one light, or all are one run.
+      for (const std::vector<uint64_t>& runs :
+           {std::vector<uint64_t>(leaves, 1), std::vector<uint64_t>{leaves}})
+        EXPECT_LE(lanes * (play_together(runs, lanes, true) + play_masked(height, lanes)),
+                  max_iterations({true, false}, walk, lanes, true))
+            << height << " " << lanes;
+    }
+}
+
 TEST(ShadingLoops, TheLoopChosenIsSureToEndByItself) {
   constexpr uint64_t limit = 65535;
   Random random(9);

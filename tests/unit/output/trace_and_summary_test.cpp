@@ -185,6 +185,30 @@ TEST(Summary, SaysWhereIdealIsNoBound) {
   EXPECT_TRUE(contains(summary_table(result), "no bound"));
 }
 
+// Of two ways to walk the one that is faster over the whole run counts, for both and for all others.
+TEST(Summary, TheFasterIdealCounts) {
+  Result result = make_result("cpu");
+  EXPECT_FALSE(contains(summary_table(result), "walk="));
+  result.cases.push_back(make_case("ideal", 10));
+  result.cases[1].parameters["walk"] = "pixel";
+  result.cases[2].parameters["walk"] = "subgroup";
+  std::string table = summary_table(result);
+  EXPECT_TRUE(contains(line_with(table, "clustered"), "0.25 (0.25..0.25)")) << table;
+  EXPECT_TRUE(contains(line_with(table, "ideal walk=pixel"), "0.50 (0.50..0.50)")) << table;
+  EXPECT_TRUE(contains(line_with(table, "ideal walk=subgroup"), " 1.00 ")) << table;
+  EXPECT_TRUE(contains(table, "ideal with walk=subgroup, the faster / of this")) << table;
+  // One frame in which it is slower changes nothing.
+  for (uint32_t repeat = 0; repeat < 2; ++repeat) result.cases[2].gpu_ms.set("shade", repeat, 0, 22);
+  EXPECT_TRUE(contains(summary_table(result), "walk=subgroup, the faster"));
+  for (uint32_t repeat = 0; repeat < 2; ++repeat) result.cases[2].gpu_ms.set("shade", repeat, 1, 22);
+  table = summary_table(result);
+  EXPECT_TRUE(contains(table, "walk=pixel, the faster")) << table;
+  EXPECT_TRUE(contains(line_with(table, "clustered"), "0.50 (0.50..0.50)")) << table;
+  // The same way twice: nobody knows which is meant.
+  result.cases.push_back(result.cases[2]);
+  EXPECT_FALSE(contains(line_with(summary_table(result), "clustered"), "0.50"));
+}
+
 TEST(Summary, MarksInvalidCases) {
   Result result = make_result("cpu");
   EXPECT_FALSE(contains(summary_table(result), "invalid"));
