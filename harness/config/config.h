@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "algorithms/algorithm.h"
-#include "harness/scene/light_set.h"
+#include "harness/lights/set.h"
 #include "harness/scene/scene.h"
 
 namespace ml {
