@@ -5,7 +5,7 @@
     scripts/check_architecture.py --self-test  check that every rule can fail
 
 Rules
-- Includes follow the arrows of ARROWS; only registry.cpp, tests and benchmarks name an algorithm's folder from outside.
+- Includes follow the arrows of ARROWS; only a registry.cpp, tests and benchmarks name an algorithm's or a scene's folder from outside.
 - Vulkan is named in harness/gpu alone (and in tests/layer, which stands in for a driver).
 - A C++ file has at most 450 lines, a shader 250.
 - Folders of algorithms/ that several algorithms are made of (SHARED) have README.md; froxels knows nothing of trees.
@@ -20,22 +20,27 @@ import re
 import sys
 import tempfile
 
-# room -> rooms whose headers it may include, besides its own. `algorithms` is the interface: the files directly in that folder.
+# room -> rooms whose headers it may include, besides its own. `algorithms` and `scenes` are the files directly in those folders.
 ARROWS = {
     "base": [],
     "measure": ["base"],
     "scene": ["base"],
+    "lights": ["base", "scene"],
+    "camera": ["base", "scene"],
+    "gltf": ["base", "scene", "lights", "camera"],
+    "scenes": ["base", "scene", "gltf"],
     "gpu": ["base"],
     "output": ["base", "measure"],
     "accuracy": ["base", "measure", "output"],
     "algorithms": ["base", "scene", "gpu", "shaders"],
-    "frame": ["base", "scene", "gpu", "algorithms", "shaders"],
-    "config": ["base", "scene", "algorithms"],
-    "bench": ["base", "scene", "gpu", "algorithms", "shaders", "measure", "output", "accuracy", "frame", "config"],
+    "frame": ["base", "scene", "lights", "gpu", "algorithms", "shaders"],
+    "config": ["base", "scene", "lights", "scenes", "algorithms"],
+    "bench": ["base", "scene", "lights", "scenes", "gpu", "algorithms", "shaders", "measure", "output", "accuracy", "frame", "config"],
     # gpu and frame for the lists of devices and effects
     "cli": ["base", "scene", "gpu", "frame", "config", "bench"],
 }
 SHADERS = ["shaders"]  # what GLSL may include besides its own folder
+FOLDERS = {"algorithms", "scenes"}  # their folders are rooms that only their registry.cpp names
 SHARED = {"froxels", "trees"}  # folders in algorithms/ that several algorithms are made of; trees stand on froxels
 OUTSIDE = {"tests", "benchmarks", "examples"}  # may use every room but cli
 
@@ -56,9 +61,9 @@ def room_of(path):
     parts = pathlib.PurePosixPath(path).parts
     if len(parts) >= 3 and parts[0] == "harness":
         return parts[1]
-    if len(parts) >= 3 and parts[0] == "algorithms":
-        return f"algorithms/{parts[1]}"
-    if len(parts) >= 2 and parts[0] in ("algorithms", "shaders") or parts[0] in OUTSIDE:
+    if len(parts) >= 3 and parts[0] in FOLDERS:
+        return f"{parts[0]}/{parts[1]}"
+    if len(parts) >= 2 and parts[0] in FOLDERS | {"shaders"} or parts[0] in OUTSIDE:
         return parts[0]
     return None
 
@@ -74,8 +79,8 @@ def include_fault(file, room, header):
         return "nothing may include cli"
     if room in OUTSIDE:
         return None
-    if target.startswith("algorithms/"):
-        if file == "algorithms/registry.cpp":
+    if "/" in target:
+        if file == f"{target.split('/')[0]}/registry.cpp":
             return None
         if target.split("/")[1] in SHARED and room.startswith("algorithms/") and (room, target) != ("algorithms/froxels", "algorithms/trees"):
             return None
@@ -85,7 +90,7 @@ def include_fault(file, room, header):
     allowed = ARROWS.get(room.split("/")[0])
     if allowed is None:
         return f"harness/{room} is not a room that this check knows"
-    if target in allowed or (room.startswith("algorithms/") and target == "algorithms"):
+    if target in allowed or target == room.split("/")[0]:
         return None
     return f"{room} may include {', '.join(allowed) or 'nothing but itself'}, not {target}"
 
@@ -169,6 +174,15 @@ def self_test():
     bad = [
         ("harness/base/file.cpp", '#include "harness/scene/scene.h"\n', 1, "base may include"),
         ("harness/scene/x.cpp", '#include "harness/gpu/device.h"\n', 1, "scene may include"),
+        ("harness/scene/x.cpp", '#include "harness/lights/set.h"\n', 1, "scene may include"),
+        ("harness/lights/x.cpp", '#include "harness/camera/orbit_path.h"\n', 1, "lights may include"),
+        ("harness/camera/x.cpp", '#include "harness/lights/set.h"\n', 1, "camera may include"),
+        ("harness/gltf/x.cpp", '#include "scenes/scenes.h"\n', 1, "gltf may include"),
+        ("scenes/x.cpp", '#include "algorithms/algorithm.h"\n', 1, "scenes may include"),
+        ("scenes/hill/x.cpp", '#include "harness/gpu/device.h"\n', 1, "scenes/hill may include"),
+        ("scenes/hill/x.cpp", '#include "scenes/dale/dale.h"\n', 1, "only registry.cpp"),
+        ("algorithms/x.cpp", '#include "scenes/hill/hill.h"\n', 1, "only registry.cpp"),
+        ("harness/config/x.cpp", '#include "scenes/hill/hill.h"\n', 1, "only registry.cpp"),
         ("harness/gpu/x.cpp", '\n#include "harness/frame/level.h"\n', 2, "gpu may include"),
         ("harness/measure/x.cpp", '#include "harness/gpu/device.h"\n', 1, "measure may include"),
         ("harness/accuracy/x.cpp", '#include "harness/frame/level.h"\n', 1, "accuracy may include"),

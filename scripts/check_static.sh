@@ -8,7 +8,7 @@
 set -u
 
 cd "$(dirname "$0")/.." || exit 1
-sources() { find harness algorithms shaders benchmarks examples tests -name '*.cpp' -o -name '*.h' | LC_ALL=C sort; }
+sources() { find harness algorithms scenes shaders benchmarks examples tests -name '*.cpp' -o -name '*.h' | LC_ALL=C sort; }
 
 format() { sources | xargs clang-format --dry-run -Werror; }
 

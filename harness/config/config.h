@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "algorithms/algorithm.h"
+#include "harness/lights/set.h"
 #include "harness/scene/effects.h"
-#include "harness/scene/light_set.h"
 #include "harness/scene/scene.h"
 
 namespace ml {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "algorithms/algorithm.h"
+#include "harness/lights/set.h"
 #include "harness/scene/camera.h"
-#include "harness/scene/light_set.h"
 #include "harness/scene/scene.h"
 
 namespace ml {

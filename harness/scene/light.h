@@ -23,6 +23,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,10 @@ struct Light {
   glm::vec3 half_extents{0};  // m, > 0; boxes: along side, cross(direction, side), direction
   bool probe = false;
 };
+
+// How many lights were refused and why ("radius is 0", "radius is negative", "its node has scale 0", ...);
+// each is counted once, by the first reason that holds.
+using Rejections = std::map<std::string, uint32_t>;
 
 inline bool has_cone(LightShape shape) {
   return shape == LightShape::spot || shape == LightShape::wedge;

@@ -15,7 +15,6 @@
 
 #include "harness/scene/camera.h"
 #include "harness/scene/light.h"
-#include "harness/scene/light_account.h"
 #include "harness/scene/light_defaults.h"
 
 namespace ml {
@@ -179,8 +178,9 @@ Scene import_gltf_memory(std::span<const std::byte> bytes, const std::string& na
 
 // Writes scene, cameras (the keys of the default path as an animated camera) and lights (KHR_lights_punctual
 // with extras for the shapes that it does not have, up to 4096; above that in a binary side file
-// FILE.lights.bin named in the file's extras; formats: gltf_parts.h). Byte-identical on every machine. Throws
-// SystemError, and UsageError for a scene without triangles and for a light that rejection_reason() refuses.
+// FILE.lights.bin named in the file's extras; formats: harness/gltf/parts.h). Byte-identical on every
+// machine. Throws SystemError, and UsageError for a scene without triangles and for a light that
+// rejection_reason() refuses.
 void export_glb(const Scene& scene, const std::vector<Light>& lights, const std::filesystem::path& file);
 
 // A path at eye height (1.7 m) above upward-facing floor, looking along long free views; seeded,

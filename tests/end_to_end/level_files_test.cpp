@@ -1,7 +1,7 @@
 // glTF files as a user brings them: broken ones are refused in one line, whole ones are measured.
 #include <cstring>
 
-#include "harness/scene/light_set.h"
+#include "harness/lights/set.h"
 #include "harness/scene/scene.h"
 #include "tests/end_to_end/program.h"
 

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "harness/base/random.h"
-#include "harness/scene/procedural.h"
+#include "scenes/procedural.h"
 #include "tests/support/exactness.h"
 #include "tests/support/hand_made_scene.h"
 

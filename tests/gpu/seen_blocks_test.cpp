@@ -6,7 +6,7 @@
 #include <cstring>
 #include <set>
 
-#include "harness/scene/procedural.h"
+#include "scenes/procedural.h"
 #include "tests/support/exactness.h"
 #include "tests/support/hand_made_scene.h"
 

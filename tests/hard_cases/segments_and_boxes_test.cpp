@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "harness/accuracy/image_metrics.h"
-#include "harness/scene/light_set.h"
+#include "harness/lights/set.h"
 #include "tests/hard_cases/hard_cases.h"
 
 namespace ml::test {

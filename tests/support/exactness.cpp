@@ -10,7 +10,7 @@
 #include "harness/base/random.h"
 #include "harness/bench/case_pictures.h"
 #include "harness/bench/picture_proof.h"
-#include "harness/scene/light_set.h"
+#include "harness/lights/set.h"
 
 namespace ml::test {
 

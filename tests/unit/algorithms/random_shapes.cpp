@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/scene/light_set.h"
+#include "harness/lights/set.h"
 
 namespace ml::test {
 

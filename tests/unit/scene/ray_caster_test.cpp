@@ -4,7 +4,7 @@
 
 #include "harness/base/random.h"
 #include "harness/scene/mesh_builder.h"
-#include "harness/scene/procedural.h"
+#include "scenes/procedural.h"
 
 namespace ml {
 namespace {

@@ -1,0 +1,28 @@
+// Where each light of a run stands, by its placement (all but `gltf` and `stage`).
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "harness/lights/clumps.h"
+#include "harness/lights/placement.h"
+
+namespace ml {
+
+class LightPlaces {
+ public:
+  // `scene` must outlive the places. Throws UsageError when the scene cannot carry the placement.
+  LightPlaces(const LightSpec& spec, const Scene& scene);
+  // m; the radius lifts lights off surfaces.
+  glm::dvec3 at(uint32_t light, double radius) const;
+
+ private:
+  uint32_t seed_hash_;
+  double height_;
+  glm::dvec3 corner_, extent_;  // of the box that volume and room fill
+  std::optional<SurfaceSampler> surface_;
+  std::optional<ClumpSampler> clumps_;
+};
+
+}  // namespace ml
