@@ -23,8 +23,9 @@ class GBuffer : public DeviceTest {
   };
   static View look(const Scene& scene, const Camera& camera, uint32_t width, uint32_t height,
                    bool alpha_mask = false) {
-    DeviceFrame frame(device(), scene, {.alpha_mask = alpha_mask, .clip_far = camera.projection.clips_far},
-                      width, height);
+    DeviceFrame frame(device(), scene,
+                      {.effects = {.alpha_mask = alpha_mask, .clip_far = camera.projection.clips_far}}, width,
+                      height);
     FrameInput input;
     input.view = view_data(camera, width, height, 0);
     frame.load(input);

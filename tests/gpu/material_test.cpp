@@ -65,7 +65,7 @@ TEST_F(Materials, VertexColorsMultiplyTheBaseColor) {
   constexpr uint32_t side = 16;
   FrameOptions options = detailed;
   options.effects.alpha_mask = true;
-  const View view = look(scene, options, side), off = look(scene, {.alpha_mask = true}, side);
+  const View view = look(scene, options, side), off = look(scene, {.effects = {.alpha_mask = true}}, side);
   for (uint32_t x = 0; x < side; ++x) {
     const size_t top = x, bottom = size_t{side - 1} * side + x;
     EXPECT_NEAR(View::three(view.albedo, top).x, 0.5, 0.005);

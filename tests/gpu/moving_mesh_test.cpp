@@ -17,7 +17,7 @@ class MovingMesh : public DeviceTest {
     std::vector<float> position, normal;
   };
   static View look(const Scene& scene, double time, bool motion) {
-    DeviceFrame frame(device(), scene, {.motion = motion}, width, height);
+    DeviceFrame frame(device(), scene, {.effects = {.motion = motion}}, width, height);
     FrameInput input;
     input.time = time;
     input.view = view_data(camera_at({0, 4, 12}, {0, 1, 0}, width, height), width, height, 0);

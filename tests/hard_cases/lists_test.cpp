@@ -79,7 +79,7 @@ TEST_F(HardCases, Case43_ListsOverTheStorageRangeAreAnError) {
     Parameters parameters(entry.parameters);
     parameters.set(entry.parameters, "tile", int64_t{4}, "test");
     parameters.set(entry.parameters, "light_data", std::string(layout), "test");
-    ShadedAlgorithm algorithm(device(), entry, parameters, {.spots = true});
+    ShadedAlgorithm algorithm(device(), entry, parameters, FrameOptions{.effects = {.spots = true}});
     Spans spans;
     try {
       algorithm.prepare(input, spans, {});
