@@ -6,6 +6,7 @@
 // (`light_cursor.glsl` in its folder), so times differ by how lights are found and by nothing else.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -24,13 +25,30 @@
 
 namespace ml {
 
-namespace gpu {
-class Commands;
-class Device;
-struct Binding;
-}  // namespace gpu
+class DeviceAlgorithm;
+struct DeviceContext;
 struct FrameTargets;  // harness/frame/targets.h: g-buffer and result of one resolution
 struct ContributingLists;
+
+// What a pass is for; sums over passes and `eff.` go by it.
+enum class PassKind : uint8_t {
+  lists,    // finds lights: build()
+  shading,  // brings light to pixels, as the harness's passes `shade`, `composite` and `forward` do
+  post,     // works on the finished picture
+};
+const char* word_of(PassKind kind);
+struct PassInfo {
+  std::string name;
+  PassKind kind = PassKind::lists;
+};
+
+struct CounterInfo {
+  std::string name;  // as the result has it
+  std::string help;  // one line, with the unit
+  // The counting variant of the cursor writes it to a uimage2D (r32ui) of this name, one number a pixel: the
+  // result has the mean over lit pixels, and there is a heat map. Else the device half reads it back.
+  bool per_pixel = false;
+};
 
 struct AlgorithmInfo {
   std::string name;
@@ -41,9 +59,16 @@ struct AlgorithmInfo {
       0;  // more lights than this are a configuration error; 0: no limit of its own (23-bit ids)
   bool needs_contributing_lists = false;  // `ideal`: wants the per-pixel lists of contributing lights
   bool reference_only = false;            // too slow for ordinary runs: left out of "all"
-  // Span names it writes, in order.
-  std::vector<std::string> cpu_stages, gpu_stages{"shade"};
-  bool builds_on_gpu() const { return gpu_stages.size() > 1; }                 // lists, by cull()
+  // Span names that prepare() writes, in order.
+  std::vector<std::string> cpu_stages;
+  // Passes that its device half records under these names, in order; the shading loop's own are not among
+  // them.
+  std::vector<PassInfo> passes;
+  bool builds_on_gpu() const {
+    return std::ranges::any_of(passes, [](const PassInfo& pass) { return pass.kind == PassKind::lists; });
+  }
+  // Counters of its own, beside those that all have.
+  std::vector<CounterInfo> counters;
   std::vector<std::string> shapes{"omni", "spot", "capsule", "wedge", "box"};  // light shapes it bounds
 };
 
@@ -65,15 +90,22 @@ struct FrameLights {
   size_t count() const { return x.size(); }
 };
 
+// How a frame follows on the one that the algorithm saw before it. Nobody compares frame numbers.
+enum class Step : uint8_t {
+  first,  // on none: the first of a lap, or after a camera that jumped; what is kept must not be used
+  next,   // it is the next
+  same,   // it is the same once more
+};
+
 // What prepare() sees.
 struct FrameInput {
   uint32_t index = 0;  // frame number in the camera path
-  // Nothing leads over from the frame before (the first frame, a camera that jumps): what is kept of that one
-  // must not be used.
-  bool after_cut = true;
+  Step step = Step::first;
   double time = 0;  // s, of the clock by which the level's nodes move (NodeMotions)
   gpu_data::ViewData view;
+  gpu_data::ViewData previous_view;  // of the frame before; after a cut, and where there is none, `view`
   FrameLights lights;
+  uint32_t seed = 1;  // for algorithms that draw random numbers: those of a frame follow from it and `index`
   Threads* threads = nullptr;  // never null in prepare()
 };
 
@@ -168,20 +200,9 @@ class Algorithm {
   // CURSOR_RUNS).
   virtual bool walks_together() const { return false; }
 
-  // GPU list building. Default: none.
-  //
-  // Once, before the first frame. `shared`: the harness's specialization constants (shaders/constants.glsl),
-  // offered to passes that look at lights. The device outlives the algorithm.
-  virtual void create_gpu(gpu::Device&, const gpu::Constants& /*shared*/) {}
-  // Records the passes of the frame that prepare() saw last, each in a named span. `frame`: what they may
-  // bind, the frame's View, Depth, Surface, Lights and Extras and the algorithm's upload buffers. Dispatches
-  // alone: they may run on a queue that knows no graphics, beside other work (gpu::Commands::fork).
-  virtual void cull(gpu::Commands&, const FrameInput&, const std::vector<gpu::Binding>& /*frame*/) {}
-  // Adds the device buffers that cull() fills and the shading loop binds; asked for after each cull().
-  virtual void gpu_bindings(std::vector<gpu::Binding>&) const {}
-  // After a counting lap: reads back, in submissions of its own, what counters() and lights_listed() cannot
-  // know without the GPU.
-  virtual void read_counters(gpu::Commands&) {}
+  // What it records on the device (device_algorithm.h); made once, before the first frame, and outlived by
+  // the algorithm. Default: the harness's shading loop and nothing else.
+  virtual std::unique_ptr<DeviceAlgorithm> device_half(const DeviceContext& context);
 
   // How many lights the list or the tree holds that a surface point at this pixel and view depth (m) looks
   // through, in the frame that was counted last: what its cursor says by COUNT_LISTED, found without the

@@ -45,6 +45,7 @@ void prepare(benchmark::State& state, const Subject& subject, MakeInput make, un
   spans.clear();
   for (auto _ : state) {
     ++input->frame.index;
+    input->frame.step = Step::next;
     algorithm->prepare(input->frame, memory, spans);
   }
   state.counters["in_view"] = static_cast<double>(algorithm->counters().in_frustum);

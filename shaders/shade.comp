@@ -11,6 +11,7 @@
 //                        uint light_next_runs(inout LightCursor, bool here)  those that follow,
 //                        bool light_run(LightCursor, uint bit, bool here, out uint first, out uint count)  a run, and whether the pixel wants it,
 //                        uint run_light(uint place)  a light of a run;
+//   CURSOR_COUNTERS      in the counting variant, with store_counters(ivec2 pixel), which writes what the algorithm counts beside the counters below;
 //   CURSOR_SHARED        with poison_shared(), which writes poison_word all over the memory that the cursor shares;
 //   CURSOR_CASES         with cursor_case(), light_next_in_list() and light_next_shared(): subgroups whose pixels have something in common
 //                        are walked in a loop of their own.
@@ -209,6 +210,9 @@ void main() {
   imageStore(Nodes, ivec2(pixel), uvec4(count_nodes));
   imageStore(Hash, ivec2(pixel), uvec4(count_hash));
   imageStore(Traversal, ivec2(pixel), uvec4(count_traversal));
+#ifdef CURSOR_COUNTERS
+  store_counters(ivec2(pixel));
+#endif
 #endif
 }
 #endif

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "algorithms/device_algorithm.h"
 #include "algorithms/fine_pruned/list_passes.h"
 #include "algorithms/fine_pruned/visible_lights.h"
 #include "algorithms/froxels/froxel_parameters.h"
@@ -63,33 +64,12 @@ class FinePruned final : public Algorithm {
   }
   gpu::Constants shade_constants() const override { return {{"PACKED", settings_.packed}}; }
 
-  void create_gpu(gpu::Device& device, const gpu::Constants& shared) override {
-    settings_.probes = std::any_of(shared.begin(), shared.end(), [](const gpu::Constant& constant) {
-      return constant.name == "EFFECT_PROBES" && constant.value != 0;
-    });
-    passes_ = std::make_unique<ListPasses>(device, shared, settings_);
-  }
-  void cull(gpu::Commands& commands, const FrameInput& frame, const gpu::Bindings& bound) override {
-    passes_->record(commands, frame.view, bound, lights_.header().count, entries_);
-  }
-  void gpu_bindings(gpu::Bindings& list) const override { passes_->bindings(list); }
+  std::unique_ptr<DeviceAlgorithm> device_half(const DeviceContext& context) override;
 
-  void read_counters(gpu::Commands& commands) override {
-    const ListPasses::Counts sums = passes_->read(commands);
-    const uint64_t cut = lights_.in_frustum() - lights_.header().count;
-    const double tiles = sums.tiles ? static_cast<double>(sums.tiles) : 1;
-    counters_.coarse_lights = static_cast<double>(sums.coarse) / tiles;
-    counters_.fine_lights = static_cast<double>(sums.listed) / tiles;
-    counters_.overflow_tiles = sums.overflow_tiles;
-    counters_.overflow_lights = cut + sums.overflow_lights;
-    counters_.list_bytes =
-        sizeof(gpu_data::VisibleHeader) + lights_.lights().size_bytes() +
-        (settings_.packed ? sums.tiles * settings_.packed_words() * 4 : sums.tiles * 8 + sums.listed * 4);
-  }
-  // The tile's list as the pass that made it counted it.
-  std::optional<uint32_t> lights_listed(glm::uvec2 pixel, float) const override {
-    return passes_->listed(pixel);
-  }
+  // Asked by the device half.
+  const PruneSettings& settings() const { return settings_; }
+  const VisibleLightList& lights() const { return lights_; }
+  uint64_t entries() const { return entries_; }
 
  private:
   PruneSettings settings_;
@@ -97,8 +77,60 @@ class FinePruned final : public Algorithm {
   VisibleLightList lights_;
   uint64_t entries_ = 0, longest_walk_ = 0;
   PrepareCounters counters_;
-  std::unique_ptr<ListPasses> passes_;
 };
+
+// Builds the lists; shading is the harness's.
+class PrunedLists final : public DeviceAlgorithm {
+ public:
+  PrunedLists(const FinePruned& algorithm, const DeviceContext& context)
+      : algorithm_(algorithm),
+        settings_(with_probes(algorithm.settings(), context.has("EFFECT_PROBES"))),
+        passes_(context.device, context.shared, settings_) {}
+
+  void build(gpu::Commands& commands, const FrameInput& frame, FrameResources& resources) override {
+    passes_.record(commands, frame.view, resources.bindings(), algorithm_.lights().header().count,
+                   algorithm_.entries());
+    gpu::Bindings made;
+    passes_.bindings(made);
+    for (const gpu::Binding& binding : made) resources.publish(binding.name, *binding.buffer);
+  }
+  void read_counters(gpu::Commands& commands, PrepareCounters& counters, CounterValues&) override {
+    const ListPasses::Counts sums = passes_.read(commands);
+    const VisibleLightList& lights = algorithm_.lights();
+    const uint64_t cut = lights.in_frustum() - lights.header().count;
+    const double tiles = sums.tiles ? static_cast<double>(sums.tiles) : 1;
+    counters.coarse_lights = static_cast<double>(sums.coarse) / tiles;
+    counters.fine_lights = static_cast<double>(sums.listed) / tiles;
+    counters.overflow_tiles = sums.overflow_tiles;
+    counters.overflow_lights = cut + sums.overflow_lights;
+    counters.list_bytes =
+        sizeof(gpu_data::VisibleHeader) + lights.lights().size_bytes() +
+        (settings_.packed ? sums.tiles * settings_.packed_words() * 4 : sums.tiles * 8 + sums.listed * 4);
+  }
+  // The tile's list as the pass that made it counted it.
+  std::optional<uint32_t> lights_listed(glm::uvec2 pixel) const override { return passes_.listed(pixel); }
+  uint64_t bytes() const override {
+    gpu::Bindings made;
+    passes_.bindings(made);
+    uint64_t sum = 0;
+    for (const gpu::Binding& binding : made) sum += binding.buffer->bytes();
+    return sum;
+  }
+
+ private:
+  static PruneSettings with_probes(PruneSettings settings, bool probes) {
+    settings.probes = probes;
+    return settings;
+  }
+
+  const FinePruned& algorithm_;
+  PruneSettings settings_;
+  ListPasses passes_;
+};
+
+std::unique_ptr<DeviceAlgorithm> FinePruned::device_half(const DeviceContext& context) {
+  return std::make_unique<PrunedLists>(*this, context);
+}
 
 // Measured on the museum and the citadel; of 8192 to 65,536 lights of canyon and citadel 29 % and 50 % were
 // in view.
@@ -125,7 +157,7 @@ AlgorithmEntry fine_pruned_entry() {
   entry.info.summary = "tile lists built on the GPU, pruned by true volumes against every pixel";
   entry.info.paper = "Mikkelsen, Fine Pruned Tiled Light Lists, GPU Pro 7, 2016";
   entry.info.cpu_stages = {"cull", "sort", "upload"};
-  entry.info.gpu_stages = {"bounds", "regions", "coarse", "lists", "shade"};
+  entry.info.passes = {{"bounds"}, {"regions"}, {"coarse"}, {"lists"}};
   entry.parameters = {
       ParameterInfo::choice("prune", "fine", {"fine", "coarse", "facing"},
                             "lists by true volumes against pixels (section 2.4), by screen bounds alone, or "

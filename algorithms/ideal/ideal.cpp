@@ -1,5 +1,6 @@
 #include "algorithms/ideal/ideal.h"
 
+#include "algorithms/device_algorithm.h"
 #include "harness/gpu/device.h"
 #include "shaders/shared/pixel_groups.h"
 #include "spirv/ideal_forward.h"
@@ -25,8 +26,9 @@ class Ideal final : public Algorithm {
   ShadeShaders shade_shaders() const override {
     return {ideal_shade, ideal_shade_counting, ideal_forward, ideal_forward_counting};
   }
-  void create_gpu(gpu::Device& device, const gpu::Constants&) override {
-    group_pixels_ = gpu_data::group_pixels(device.limits().subgroup_size);
+  std::unique_ptr<DeviceAlgorithm> device_half(const DeviceContext& context) override {
+    group_pixels_ = gpu_data::group_pixels(context.device.limits().subgroup_size);
+    return Algorithm::device_half(context);
   }
   gpu::Constants shade_constants() const override { return {{"GROUP_PIXELS", group_pixels_}}; }
 

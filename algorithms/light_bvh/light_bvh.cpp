@@ -80,16 +80,12 @@ class LightBvh final : public Algorithm {
   // A lap through the frames begins with a fresh tree, so that every lap does the same work. A frame that is
   // prepared again is only refitted.
   void update(const FrameInput& frame) {
-    const bool same_frame = built_ && frame.index == last_frame_,
-               next_frame = built_ && frame.index > last_frame_;
-    if (rebuild_ || !(same_frame || next_frame)) {
+    if (rebuild_ || frame.step == Step::first) {
       tree_.build(frame.lights);
     } else {
       tree_.follow(frame.lights);
-      if (next_frame) tree_.reinsert(frame.index % reinsertion_period, reinsertion_period);
+      if (frame.step == Step::next) tree_.reinsert(frame.index % reinsertion_period, reinsertion_period);
     }
-    built_ = true;
-    last_frame_ = frame.index;
   }
 
   SphereTree tree_;
@@ -98,8 +94,7 @@ class LightBvh final : public Algorithm {
   uint32_t node_words_;
   VisibleLights culled_;
   std::vector<uint8_t> visible_;
-  bool built_ = false;
-  uint32_t last_frame_ = 0, lights_ = 0;
+  uint32_t lights_ = 0;
   PrepareCounters counters_;
 };
 

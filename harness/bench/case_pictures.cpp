@@ -73,26 +73,29 @@ std::vector<std::string> write_image(DeviceFrame& frame, const std::filesystem::
   return {stem + ".exr", stem + ".png"};
 }
 
-std::vector<std::string> write_heat_maps(const PixelCounts& counts, const std::vector<uint8_t>& lit,
-                                         uint32_t width, uint32_t height, uint32_t tile,
-                                         const std::filesystem::path& folder, const std::string& stem) {
+std::vector<std::string> write_heat_maps(const HeatMaps& maps, const std::filesystem::path& folder,
+                                         const std::string& stem) {
   struct Quantity {
-    const char* name;
-    const char* title;
+    std::string name, title;
     const std::vector<uint32_t>& values;
     std::vector<std::string> classes;
     bool wanted;
   };
-  const Quantity quantities[] = {
+  const PixelCounts& counts = maps.counts;
+  const uint32_t tile = maps.tile;
+  std::vector<Quantity> quantities{
       {"listed", "lights listed per pixel", counts.listed, {}, true},
       {"contributing", "lights contributing per pixel", counts.contributing, {}, true},
       {"nodes", "tree nodes visited per pixel", counts.nodes, {}, any(counts.nodes)},
       {"traversal", "traversal", counts.traversal, {"list", "tree", "mixed"}, any(counts.traversal)},
   };
+  for (const CounterInfo& counter : maps.own)
+    if (const auto found = maps.values.find(counter.name); found != maps.values.end())
+      quantities.push_back({counter.name, counter.help, found->second, {}, true});
   std::vector<std::string> files;
   for (const Quantity& quantity : quantities) {
     if (!quantity.wanted) continue;
-    Picture pixels = count_picture(quantity.values, lit, width, height);
+    Picture pixels = count_picture(quantity.values, maps.lit, maps.width, maps.height);
     HeatMapStyle style;
     style.title = quantity.title;
     style.classes = quantity.classes;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 namespace ml {
 
 PixelCounts read_counts(DeviceFrame& frame) {
@@ -102,6 +104,27 @@ FrameCounters summarize(const PixelCounts& counts, const ContributingLights& tru
   frame.contributing = static_cast<double>(contributing) / pixels;
   frame.nodes = static_cast<double>(nodes) / pixels;
   return frame;
+}
+
+std::map<std::string, double> own_counters(const AlgorithmInfo& info, const CounterValues& of_frame,
+                                           const std::map<std::string, std::vector<uint32_t>>& of_pixels,
+                                           const std::vector<uint8_t>& lit) {
+  std::map<std::string, double> values = of_frame;
+  double pixels = 0;
+  for (uint8_t is_lit : lit) pixels += is_lit;
+  for (const auto& [name, counts] : of_pixels) {
+    double sum = 0;
+    for (size_t i = 0; i < lit.size(); ++i) sum += lit[i] ? counts[i] : 0;
+    values[name] = pixels > 0 ? sum / pixels : 0;
+  }
+  for (const CounterInfo& counter : info.counters)
+    if (!values.contains(counter.name))
+      throw std::logic_error(
+          fmt::format("{}: the counter {} is declared and not given", info.name, counter.name));
+  if (values.size() != info.counters.size())
+    throw std::logic_error(fmt::format("{}: it gives {} counters and declares {}", info.name, values.size(),
+                                       info.counters.size()));
+  return values;
 }
 
 std::map<std::string, double> FrameCounters::named() const {

@@ -37,6 +37,12 @@ struct FrameCounters {
 FrameCounters summarize(const PixelCounts& counts, const ContributingLights& truth,
                         const std::vector<uint8_t>& lit, const PrepareCounters& prepare);
 
+// The frame's values of the counters that the algorithm declares, all of them: those of pixels as means over
+// lit pixels. std::logic_error where it declares one that it does not give, or the other way round.
+std::map<std::string, double> own_counters(const AlgorithmInfo& info, const CounterValues& of_frame,
+                                           const std::map<std::string, std::vector<uint32_t>>& of_pixels,
+                                           const std::vector<uint8_t>& lit);
+
 // Why the counters of a frame cannot be right, whatever the lists are; empty when they may be. The reference
 // tests every light at every pixel with a surface, `ideal` lists and tests what contributes to the pixel or,
 // where it walks `LightLists::groups`, to some pixel of its group, and nobody lists more lights than there

@@ -84,6 +84,7 @@ SetupRun::SetupRun(gpu::Device& device, const Config& config, const std::vector<
         std::make_unique<ShadedAlgorithm>(device_, entry, spec.parameters, workload_.options()));
     lists_ = std::max(lists_, algorithms_.back()->wanted_lists());
     results_.push_back(empty_result(device_, config_, item, workload_));
+    for (const PassInfo& pass : entry.info.passes) results_.back().passes[pass.name] = word_of(pass.kind);
     results_.back().overlap = expected_overlap(device_, setup_of(config_, cases_).shading, entry.info,
                                                config_.measure, workload_.frames().frames());
   }
@@ -155,6 +156,9 @@ void SetupRun::counting_lap(const Step& done, bool tell) {
           summarize(counts, frame_.contributing(), lit, algorithms_[i]->counters());
       check_counts(i, counts, lit, depths, counters);
       for (const auto& [name, value] : counters.named()) results_[i].counters[name].push_back(value);
+      for (const auto& [name, value] : own_counters(algorithms_[i]->info(), algorithms_[i]->own_counters(),
+                                                    algorithms_[i]->own_pixel_counters(frame_), lit))
+        results_[i].counters[name].push_back(value);
       done(index == 0 ? StepKind::programs : StepKind::counting, i, "counting " + cases_[i].id);
     }
   }
@@ -251,9 +255,10 @@ void SetupRun::pictures(const std::filesystem::path& folder, const Step& done) {
       if (has(config_.outputs.heatmaps, index)) {
         uint32_t tile =
             results_[i].parameters.contains("tile") ? results_[i].parameters["tile"].get<uint32_t>() : 16;
-        std::vector<std::string> files =
-            write_heat_maps(read_counts(frame_), lit, frame_.targets().width(), frame_.targets().height(),
-                            tile, folder, "heatmaps/" + stem);
+        std::vector<std::string> files = write_heat_maps(
+            {read_counts(frame_), algorithms_[i]->info().counters, algorithms_[i]->own_pixel_counters(frame_),
+             lit, frame_.targets().width(), frame_.targets().height(), tile},
+            folder, "heatmaps/" + stem);
         results_[i].heatmaps.insert(results_[i].heatmaps.end(), files.begin(), files.end());
       }
       done(StepKind::pictures, i, "pictures of " + cases_[i].id);

@@ -131,9 +131,12 @@ std::vector<Row> rows_of(const std::string& what) {
                       fmt::format("{}, Vulkan {}, {}, UUID {}, second queue: {}{}", info.type,
                                   info.api_version, info.driver, info.uuid, gpu::in_words(info.second_queue),
                                   info.missing.empty() ? "" : "; cannot be used, lacks " + info.missing)});
-  else if (what == "metrics")
+  else if (what == "metrics") {
     rows = metrics();
-  else
+    for (const AlgorithmEntry& entry : algorithm_registry())
+      for (const CounterInfo& counter : entry.info.counters)
+        rows.push_back({counter.name, fmt::format("{} ({})", counter.help, entry.info.name)});
+  } else
     rows = effects();
   return rows;
 }

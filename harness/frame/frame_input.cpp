@@ -144,10 +144,18 @@ const FrameInput& FrameSequence::at(uint32_t index) {
   camera_ = path_.sample(index, frames_, width_, height_, scene_.near, scene_.far);
   set_.at(index, frames_, path_.duration(), active_, &identity_);
   storage_.fill(active_, camera_.position, shapes_);
+  const bool follows = seen_ && index == input_.index + 1 && !path_.cuts(index, frames_);
+  const gpu_data::ViewData before = input_.view;
+  if (seen_ && index == input_.index)
+    input_.step = Step::same;
+  else
+    input_.step = follows ? Step::next : Step::first;
+  seen_ = true;
   input_.index = index;
   input_.time = scene_.motions ? scene_.motions->time_of(index, frames_) : 0;
-  input_.after_cut = path_.cuts(index, frames_);
   input_.view = view_data(camera_, width_, height_, static_cast<uint32_t>(active_.size()));
+  if (input_.step == Step::next) input_.previous_view = before;
+  if (input_.step == Step::first) input_.previous_view = input_.view;
   input_.lights = storage_.lights();
   input_.lights.identity = identity_;
   return input_;

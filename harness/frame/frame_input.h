@@ -60,6 +60,7 @@ class FrameSequence {
   std::vector<uint32_t> identity_;
   FrameLightStorage storage_;
   FrameInput input_;
+  bool seen_ = false;  // a frame was asked for
 };
 
 }  // namespace ml

@@ -24,16 +24,20 @@ struct BlockRange {
   uint32_t first_block, first_light, end_light;
 };
 
-std::unique_ptr<Algorithm> created(gpu::Device& device, const AlgorithmEntry& entry,
-                                   const Parameters& parameters, const FrameOptions& options) {
+std::unique_ptr<Algorithm> created(const gpu::Device& device, const AlgorithmEntry& entry,
+                                   const Parameters& parameters) {
   bool wants_fp64 = false;
   for (const auto& [name, value] : parameters.values())
     if (const auto* word = std::get_if<std::string>(&value)) wants_fp64 |= *word == "fp64";
   if (wants_fp64 && !device.limits().fp64)
     throw SystemError(entry.info.name + ": '" + device.info().name + "' has no 64-bit floats");
-  auto algorithm = entry.create(parameters);
-  algorithm->create_gpu(device, options.constants(device));
-  return algorithm;
+  return entry.create(parameters);
+}
+
+std::unique_ptr<DeviceAlgorithm> device_half(Algorithm& algorithm, gpu::Device& device,
+                                             const FrameOptions& options) {
+  const gpu::Constants shared = options.constants(device);
+  return algorithm.device_half({device, shared});
 }
 
 }  // namespace
@@ -42,7 +46,9 @@ ShadedAlgorithm::ShadedAlgorithm(gpu::Device& device, const AlgorithmEntry& entr
                                  const Parameters& parameters, const FrameOptions& options)
     : device_(device),
       entry_(entry),
-      algorithm_(created(device, entry, parameters, options)),
+      algorithm_(created(device, entry, parameters)),
+      device_half_(ml::device_half(*algorithm_, device, options)),
+      own_images_(device_half_->images(), entry.info.counters, entry.info.name),
       names_(algorithm_->buffers()),
       options_(options),
       together_(algorithm_->walks_together()),
@@ -69,7 +75,7 @@ const gpu::RasterProgram& ShadedAlgorithm::forward_program(bool counting, bool l
   const ShadeShaders shaders = algorithm_->shade_shaders();
   // Forward materials have their albedo at hand: their light goes to the result at once. Pixels walk alone.
   gpu::Constants constants = options_.constants(device_);
-  constants.push_back({"LONG_LISTS", long_walks});
+  append(constants, {{"LONG_LISTS", long_walks}, {"SPLIT_TARGETS", false}});
   append(constants, algorithm_->shade_constants());
   append(constants, algorithm_->class_constants(algorithm_->tile_classes().most));
   return forward_programs_
@@ -133,16 +139,29 @@ size_t ShadedAlgorithm::limit() const {
 }
 
 uint64_t ShadedAlgorithm::upload_bytes() const {
-  uint64_t sum = class_blocks_.capacity();
+  uint64_t sum = class_blocks_.capacity() + device_half_->bytes() + own_images_.bytes();
   for (const gpu::UploadBuffer& buffer : buffers_) sum += buffer.capacity();
-  gpu::Bindings own;
-  algorithm_->gpu_bindings(own);
-  for (const gpu::Binding& binding : own) sum += binding.buffer->bytes();
   return sum;
 }
 
+FrameInput ShadedAlgorithm::stepped(const FrameInput& input) const {
+  FrameInput own = input;
+  own.step = step_;
+  return own;
+}
+
 void ShadedAlgorithm::prepare(const FrameInput& input, Spans& spans, std::span<const glm::u16vec2> blocks) {
-  algorithm_->prepare(input, *this, spans);
+  // Algorithms of a run see the same frames, but not each of them equally often.
+  if (!last_index_)
+    step_ = Step::first;
+  else if (input.index == *last_index_)
+    step_ = Step::same;
+  else
+    step_ = input.step == Step::next && input.index == *last_index_ + 1 ? Step::next : Step::first;
+  last_index_ = input.index;
+  own_images_.follow(step_);
+  algorithm_->prepare(stepped(input), *this, spans);
+  counters_ = algorithm_->counters();
   auto span = spans.span("upload");
   sort_blocks(input, blocks);
 }
@@ -190,19 +209,31 @@ void ShadedAlgorithm::sort_blocks(const FrameInput& input, std::span<const glm::
   for (size_t i = 0; i < blocks.size(); ++i) sorted[block_ends_[class_of_block_[i]]++] = blocks[i];
 }
 
-gpu::Bindings ShadedAlgorithm::bindings(const DeviceFrame& frame) const {
-  gpu::Bindings list = frame.bindings();
-  for (size_t slot = 0; slot < names_.size(); ++slot) list.emplace_back(names_[slot], buffers_[slot]);
-  return list;
-}
+// What the device half of a frame sees.
+class ShadedAlgorithm::Resources final : public FrameResources {
+ public:
+  Resources(ShadedAlgorithm& algorithm, DeviceFrame& frame, const FrameInput& input, bool counting)
+      : algorithm_(algorithm), frame_(frame), input_(input), counting_(counting), list_(frame.bindings()) {
+    for (size_t slot = 0; slot < algorithm.names_.size(); ++slot)
+      list_.emplace_back(algorithm.names_[slot], algorithm.buffers_[slot]);
+    algorithm.own_images_.bind(frame, counting, list_);
+  }
+  const gpu::Bindings& bindings() const override { return list_; }
+  void publish(std::string_view name, const gpu::Buffer& buffer) override {
+    list_.emplace_back(names_.emplace_back(name), buffer);
+  }
+  void shading_loop() override {
+    algorithm_.record_loop(frame_.commands(), frame_, input_, counting_, list_);
+  }
 
-gpu::Bindings ShadedAlgorithm::cull(gpu::Commands& commands, const DeviceFrame& frame,
-                                    const FrameInput& input) {
-  gpu::Bindings list = bindings(frame);
-  algorithm_->cull(commands, input, list);
-  algorithm_->gpu_bindings(list);
-  return list;
-}
+ private:
+  ShadedAlgorithm& algorithm_;
+  DeviceFrame& frame_;
+  const FrameInput& input_;
+  bool counting_;
+  gpu::Bindings list_;
+  std::deque<std::string> names_;  // that the list refers to
+};
 
 void ShadedAlgorithm::shade_blocks(gpu::Commands& commands, const Variant& variant,
                                    const gpu::Bindings& bindings, const FrameInput& input, uint32_t begin,
@@ -229,8 +260,9 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
     for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
     if (!one_class_) commands.transfer(class_blocks_);
   }
-  gpu::Bindings list;
-  const auto build = [&] { list = cull(commands, frame, input); };
+  const FrameInput own = stepped(input);
+  Resources resources(*this, frame, own, counting);
+  const auto build = [&] { device_half_->build(commands, own, resources); };
   const auto other_work = [&] { frame.record_shadow_maps(); };
   if (options_.shading.compute_lists && entry_.info.builds_on_gpu()) {
     commands.fork(build, other_work);
@@ -238,6 +270,12 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
     build();
     other_work();
   }
+  if (counting) frame.clear_counters();
+  device_half_->shade(commands, own, resources, counting ? ShadeVariant::counting : ShadeVariant::timed);
+}
+
+void ShadedAlgorithm::record_loop(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input,
+                                  bool counting, const gpu::Bindings& list) {
   const uint32_t across = (input.view.resolution.x + 7) / 8, down = (input.view.resolution.y + 7) / 8;
   const FrameTargets& targets = frame.targets();
   {
@@ -249,7 +287,6 @@ void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const 
     Variant variant{
         .counting = counting, .loop = loop_of(frame, input, together_), .tile_class = only_class_};
     into.emplace_back("Blocks", one_class_ ? frame.seen_blocks().list() : class_blocks_);
-    if (counting) frame.clear_counters();
     auto span = commands.span("shade");
     if (one_class_)
       shade_blocks(commands, variant, into, input, 0,
@@ -283,7 +320,8 @@ void ShadedAlgorithm::count(DeviceFrame& frame, const FrameInput& input) {
   commands.begin(gpu::Timing::none);
   record(commands, frame, input, true);
   commands.submit();
-  algorithm_->read_counters(commands);
+  own_counters_.clear();
+  device_half_->read_counters(commands, counters_, own_counters_);
 }
 
 void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input,
@@ -295,7 +333,9 @@ void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input,
   commands.begin(gpu::Timing::none);
   for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
   commands.transfer(sampled_blocks_);
-  gpu::Bindings list = cull(commands, frame, input);
+  Resources resources(*this, frame, input, true);
+  device_half_->build(commands, input, resources);
+  gpu::Bindings list = resources.bindings();
   list.emplace_back("Blocks", sampled_blocks_);
   const Variant variant{.counting = true,
                         .sampled = true,

@@ -1,4 +1,5 @@
-// An algorithm with everything it needs on the device: its upload buffers and its two shading programs.
+// An algorithm with everything it needs on the device: its upload buffers, its device half with the images of
+// its own, and the shading loop, the part that the harness has for all.
 #pragma once
 
 #include <deque>
@@ -9,6 +10,7 @@
 
 #include "algorithms/algorithm.h"
 #include "harness/frame/device_frame.h"
+#include "harness/frame/own_images.h"
 #include "harness/frame/shading_loops.h"
 
 namespace ml {
@@ -35,10 +37,18 @@ class ShadedAlgorithm final : private UploadMemory {
   // A hash of every byte that the last prepare() gave to the GPU.
   uint64_t upload_digest() const;
 
-  PrepareCounters counters() const { return algorithm_->counters(); }
-  // After count() (Algorithm::lights_listed).
+  const PrepareCounters& counters() const { return counters_; }
+  // After count(): the counters that it declares (AlgorithmInfo::counters), those of frames and of pixels.
+  const CounterValues& own_counters() const { return own_counters_; }
+  std::map<std::string, std::vector<uint32_t>> own_pixel_counters(DeviceFrame& frame) const {
+    return own_images_.read_counters(frame);
+  }
+  // An image that its device half declares, of the last frame; null: there is none of that name yet.
+  const gpu::Image* own_image(const std::string& name) const { return own_images_.find(name); }
+  // After count() (Algorithm::lights_listed, DeviceAlgorithm::lights_listed).
   std::optional<uint32_t> lights_listed(glm::uvec2 pixel, float depth) const {
-    return algorithm_->lights_listed(pixel, depth);
+    const std::optional<uint32_t> known = algorithm_->lights_listed(pixel, depth);
+    return known ? known : device_half_->lights_listed(pixel);
   }
   // Bytes of the buffers that the GPU reads, as allocated.
   uint64_t upload_bytes() const;
@@ -53,10 +63,12 @@ class ShadedAlgorithm final : private UploadMemory {
   std::span<std::byte> map(uint32_t slot, size_t bytes) override;
   size_t limit() const override;
   bool cached(uint32_t slot) const override;
-  gpu::Bindings bindings(const DeviceFrame& frame) const;
-  // Records list building; what the shading pass binds.
-  gpu::Bindings cull(gpu::Commands& commands, const DeviceFrame& frame, const FrameInput& input);
+  class Resources;
+  // The input as this algorithm sees it: with its own step.
+  FrameInput stepped(const FrameInput& input) const;
   void record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input, bool counting);
+  void record_loop(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input, bool counting,
+                   const gpu::Bindings& list);
 
   // What a program of the shading loop is compiled for.
   struct Variant {
@@ -85,6 +97,12 @@ class ShadedAlgorithm final : private UploadMemory {
   gpu::Device& device_;
   const AlgorithmEntry& entry_;
   std::unique_ptr<Algorithm> algorithm_;
+  std::unique_ptr<DeviceAlgorithm> device_half_;
+  OwnImages own_images_;
+  PrepareCounters counters_;
+  CounterValues own_counters_;
+  Step step_ = Step::first;             // of the frame that was prepared last
+  std::optional<uint32_t> last_index_;  // its number
   std::vector<std::string> names_;
   std::deque<gpu::UploadBuffer> buffers_;
   FrameOptions options_;

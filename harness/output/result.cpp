@@ -85,6 +85,7 @@ json case_json(const CaseResult& one) {
           {"cpu_ms", times(one.cpu_ms, one)},
           {"gpu_ms", times(one.gpu_ms, one)},
           {"counters", std::move(counters)},
+          {"passes", one.passes},
           {"accuracy", without_infinities(one.accuracy)},
           {"memory_bytes", one.memory_bytes},
           {"rejected_lights", one.rejected_lights},
@@ -157,6 +158,7 @@ CaseResult case_from_json(const json& one) {
   result.width = one.at("resolution").at(0);
   result.height = one.at("resolution").at(1);
   one.at("effects").get_to(result.effects);
+  if (one.contains("passes")) one.at("passes").get_to(result.passes);
   one.at("frames").get_to(result.frames);
   one.at("repeats_done").get_to(result.repeats_done);
   result.cpu_ms = samples(one, "cpu_ms");

@@ -34,6 +34,7 @@ struct CaseResult {
   uint32_t lights = 0;
   uint32_t width = 0, height = 0;
   std::vector<std::string> effects;
+  std::map<std::string, std::string> passes;  // the algorithm's own, and what for: lists, shading or post
   std::vector<uint32_t> frames;
   SampleTable cpu_ms, gpu_ms;
   std::map<std::string, std::vector<double>> counters;

@@ -26,8 +26,17 @@ Laps laps_of(const SampleTable& table, const CaseResult& one, std::string_view n
   return laps;
 }
 
-bool is_shading(const std::string& pass) {
+// Those of the harness's shading loop, and those that the algorithm says to be such.
+bool is_shading(const CaseResult& one, const std::string& pass) {
+  const auto declared = one.passes.find(pass);
+  if (declared != one.passes.end()) return declared->second == "shading";
   return pass == "shade" || pass == "composite" || pass == "forward";
+}
+
+// What an algorithm declares as work on the finished picture is in the total alone.
+bool is_post(const CaseResult& one, const std::string& pass) {
+  const auto declared = one.passes.find(pass);
+  return declared != one.passes.end() && declared->second == "post";
 }
 
 // The device's passes of one kind together.
@@ -47,13 +56,14 @@ Laps summed(const CaseResult& one, Predicate wanted) {
 }
 
 Laps shading(const CaseResult& one) {
-  return summed(one, is_shading);
+  return summed(one, [&](const std::string& name) { return is_shading(one, name); });
 }
 
 // List building: every pass before shading.
 Laps culling(const CaseResult& one) {
-  return summed(one, [](const std::string& name) {
-    return !is_shading(name) && name != "total" && name != "transfer" && name != "shadow_maps";
+  return summed(one, [&](const std::string& name) {
+    return !is_shading(one, name) && !is_post(one, name) && name != "total" && name != "transfer" &&
+           name != "shadow_maps";
   });
 }
 

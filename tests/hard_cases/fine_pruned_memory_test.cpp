@@ -1,6 +1,7 @@
 // The list buffer of fine_pruned when it is too small, and from frame to frame.
 #include <memory>
 
+#include "algorithms/device_algorithm.h"
 #include "algorithms/fine_pruned/list_passes.h"
 #include "harness/accuracy/image_metrics.h"
 #include "tests/hard_cases/pruned_check.h"
@@ -21,17 +22,28 @@ class Starved final : public Algorithm {
   ShadeShaders shade_shaders() const override { return inner_->shade_shaders(); }
   gpu::Constants shade_constants() const override { return inner_->shade_constants(); }
   bool walks_together() const override { return inner_->walks_together(); }
-  void create_gpu(gpu::Device& owner, const gpu::Constants& shared) override {
-    passes_ = std::make_unique<ListPasses>(owner, shared, PruneSettings{});
+  std::unique_ptr<DeviceAlgorithm> device_half(const DeviceContext& context) override {
+    return std::make_unique<Lists>(*this, context);
   }
-  void cull(gpu::Commands& commands, const FrameInput& frame, const gpu::Bindings& bound) override {
-    passes_->record(commands, frame.view, bound, static_cast<uint32_t>(counters().in_frustum), 0);
-  }
-  void gpu_bindings(gpu::Bindings& list) const override { passes_->bindings(list); }
 
  private:
+  class Lists final : public DeviceAlgorithm {
+   public:
+    Lists(const Starved& algorithm, const DeviceContext& context)
+        : algorithm_(algorithm), passes_(context.device, context.shared, PruneSettings{}) {}
+    void build(gpu::Commands& commands, const FrameInput& frame, FrameResources& resources) override {
+      passes_.record(commands, frame.view, resources.bindings(),
+                     static_cast<uint32_t>(algorithm_.counters().in_frustum), 0);
+      gpu::Bindings made;
+      passes_.bindings(made);
+      for (const gpu::Binding& binding : made) resources.publish(binding.name, *binding.buffer);
+    }
+
+   private:
+    const Starved& algorithm_;
+    ListPasses passes_;
+  };
   std::unique_ptr<Algorithm> inner_;
-  std::unique_ptr<ListPasses> passes_;
 };
 
 TEST_F(HardCases, FinePruned_TilesWithoutRoomWalkAllVisibleLights) {

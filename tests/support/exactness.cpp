@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "algorithms/device_algorithm.h"
 #include "harness/accuracy/image_metrics.h"
 #include "harness/base/random.h"
 #include "harness/bench/case_pictures.h"
@@ -31,15 +32,10 @@ class Exactness::Replaceable final : public Algorithm {
   gpu::Constants class_constants(uint32_t tile_class) const override {
     return (*inner_)->class_constants(tile_class);
   }
-  void create_gpu(gpu::Device& owner, const gpu::Constants& shared) override {
-    (*inner_)->create_gpu(owner, shared);
+  // Its algorithm is not exchanged where it has one of its own (slot_of()).
+  std::unique_ptr<DeviceAlgorithm> device_half(const DeviceContext& context) override {
+    return (*inner_)->device_half(context);
   }
-  void cull(gpu::Commands& commands, const FrameInput& frame,
-            const std::vector<gpu::Binding>& shared) override {
-    (*inner_)->cull(commands, frame, shared);
-  }
-  void gpu_bindings(std::vector<gpu::Binding>& bindings) const override { (*inner_)->gpu_bindings(bindings); }
-  void read_counters(gpu::Commands& commands) override { (*inner_)->read_counters(commands); }
   std::optional<uint32_t> lights_listed(glm::uvec2 pixel, float depth) const override {
     return (*inner_)->lights_listed(pixel, depth);
   }
@@ -181,7 +177,7 @@ Exactness::Slot& Exactness::slot_of(const Trial& trial) {
   const AlgorithmEntry& real = entry_of(trial.algorithm);
   std::unique_ptr<Algorithm> made = real.create(trial.parameters);
   // Passes of its own are compiled for each set of parameters, so those are kept with their programs.
-  const bool own_passes = real.info.gpu_stages.size() > 1;
+  const bool own_passes = real.info.builds_on_gpu();
   std::string key = own_passes ? trial.text() : trial.algorithm + (made->walks_together() ? " together" : "");
   for (const gpu::Constant& constant : made->shade_constants()) key += fmt::format(" {}", constant.value);
   Slot& slot = slots_[key];
@@ -202,6 +198,9 @@ Exactness::Slot& Exactness::slot_of(const Trial& trial) {
 Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& lights,
                               const std::vector<Trial>& trials, uint32_t oracle_points) {
   for (const Light& light : lights) EXPECT_EQ(rejection_reason(light), nullptr) << rejection_reason(light);
+  // What is kept from frame to frame has to follow any change.
+  input_.step = Step::next;
+  ++input_.index;
   storage_.fill(lights, camera.position, frame_.options().effects.shapes());
   input_.view = view_data(camera, width(), height(), static_cast<uint32_t>(lights.size()));
   input_.lights = storage_.lights();
