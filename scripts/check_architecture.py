@@ -7,7 +7,7 @@
 Rules
 - Includes follow the arrows of ARROWS; only a registry.cpp, tests and benchmarks name an algorithm's or a scene's folder from outside.
 - Vulkan is named in harness/gpu alone (and in tests/layer, which stands in for a driver).
-- A C++ file has at most 450 lines, a shader 250.
+- A C++ file has at most 450 lines, a shader 250; a line of GLSL has at most 120 columns (clang-format holds C++ to its own).
 - Folders of algorithms/ that several algorithms are made of (SHARED) have README.md; froxels knows nothing of trees.
 - An algorithm's folder has README.md and light_cursor.glsl, and registry.cpp includes its header.
 - No path of somebody's machine, no note of work left to do.
@@ -45,6 +45,7 @@ SHARED = {"froxels", "trees"}  # folders in algorithms/ that several algorithms 
 OUTSIDE = {"tests", "benchmarks", "examples"}  # may use every room but cli
 
 MOST_LINES = {".cpp": 450, ".h": 450, ".glsl": 250, ".comp": 250, ".vert": 250, ".frag": 250}
+MOST_COLUMNS = 120  # of GLSL
 GLSL = {".glsl", ".comp", ".vert", ".frag"}
 TEXT = set(MOST_LINES) | {".md", ".py", ".sh", ".json", ".txt", ".cmake", ".yml", ".mjs", ""}
 SKIPPED = {".git", "build", "out", "node_modules", ".cache", "__pycache__"}
@@ -109,6 +110,8 @@ def check_file(path, text):
             yield number, "a note of work left to do; do it or open an issue"
         if MACHINE_PATH.search(line):
             yield number, "a path of somebody's machine"
+        if suffix in GLSL and len(line) > MOST_COLUMNS:
+            yield number, f"{len(line)} columns; at most {MOST_COLUMNS}"
         if not code or room is None:
             continue
         include = INCLUDE.match(line)
@@ -202,6 +205,7 @@ def self_test():
         ("harness/frame/x.h", "int i;\n" * 451, 451, "451 lines"),
         ("shaders/x.glsl", "int i;\n" * 251, 251, "251 lines"),
         ("harness/base/x.h", "// TO" + "DO: later\n", 1, "left to do"),
+        ("shaders/x.glsl", "// " + "wide " * 24 + "\n", 1, "columns"),
         ("README.md", "cd /ho" + "me/somebody/bench\n", 1, "somebody's machine"),
         ("algorithms/lost/light_cursor.glsl", "", 1, None),
     ]

@@ -1,5 +1,5 @@
-// Writes what the shading loop sees of every pixel, for checking with other programs: KIND 0 position, 1 normal, 2 albedo, 3 material
-// (roughness, metallic), 4 emission, each with the view depth in the fourth channel (0: sky).
+// Writes what the shading loop sees of every pixel, for checking with other programs: KIND 0 position, 1 normal, 2
+// albedo, 3 material (roughness, metallic), 4 emission, each with the view depth in the fourth channel (0: sky).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/surface.glsl"

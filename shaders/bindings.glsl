@@ -24,7 +24,8 @@
 #define BIND_METALLIC_ROUGHNESS 26  // textures of the mesh that is drawn
 #define BIND_NORMAL_MAP 27
 #define BIND_EMISSION_MAP 28
-#define BIND_QUADS 32    // added to a buffer's number: the same buffer as texels of four words, bound by its name with "Quads" behind
+// Added to a buffer's number: the same buffer as texels of four words, bound by its name with "Quads" behind.
+#define BIND_QUADS 32
 #define BIND_DIFFUSE 16  // of a pass that has no algorithm in it
 
 #endif

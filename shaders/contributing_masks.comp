@@ -1,4 +1,5 @@
-// For every group of 8x8 blocks a bit for each light that touches one of its blocks' common bounds: one workgroup a group.
+// For every group of 8x8 blocks a bit for each light that touches one of its blocks' common bounds: one workgroup a
+// group.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/contributing_common.glsl"

@@ -1,10 +1,13 @@
-// Every pixel against the lights that touch its block: counts them, or (FILL) writes them down in ascending order at the pixel's offset.
+// Every pixel against the lights that touch its block: counts them, or (FILL) writes them down in ascending order at
+// the pixel's offset.
 //
-// The group's mask is narrowed to the block first, each thread taking words of its own; then all pixels walk the few lights that are left.
+// The group's mask is narrowed to the block first, each thread taking words of its own; then all pixels walk the few
+// lights that are left.
 //
-// Iterations for each chunk of 8192 lights, whatever the masks hold: 1 for the chunk, 4 x 33 to narrow it, 8 x 33 over the words that are left, and for
-// the lights of each of these 256 words 32, with LONG_LISTS 4. So 28,000 lights take fewer than 35,000, and the 262,144 of one dispatch fewer than
-// 46,000 with LONG_LISTS: within what any driver is known to allow (harness/frame/shading_loops.h).
+// Iterations for each chunk of 8192 lights, whatever the masks hold: 1 for the chunk, 4 x 33 to narrow it, 8 x 33 over
+// the words that are left, and for the lights of each of these 256 words 32, with LONG_LISTS 4. So 28,000 lights take
+// fewer than 35,000, and the 262,144 of one dispatch fewer than 46,000 with LONG_LISTS: within what any driver is known
+// to allow (harness/frame/shading_loops.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/contributing_common.glsl"

@@ -1,4 +1,5 @@
-// DETAILED: levels with vertex colours, metallic-roughness textures or normal maps; EMISSION too: with surfaces that give light by themselves.
+// DETAILED: levels with vertex colours, metallic-roughness textures or normal maps; EMISSION too: with surfaces that
+// give light by themselves.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SURFACE_WRITER

@@ -1,5 +1,6 @@
-// Camera-relative projection: the camera is subtracted from the vertex in the scene's own coordinates, then rotated, then projected.
-// DETAILED: levels that know more of their vertices (details.glsl). MOVING: levels with meshes that move (motion.glsl).
+// Camera-relative projection: the camera is subtracted from the vertex in the scene's own coordinates, then rotated,
+// then projected. DETAILED: levels that know more of their vertices (details.glsl). MOVING: levels with meshes that
+// move (motion.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define SURFACE_WRITER
@@ -38,8 +39,8 @@ void main() {
   float width = view.right_edge - view.left_edge, height = view.top_edge - view.bottom_edge;
   // Reversed depth: near / z without a far plane, or linear from 1 at near to 0 at far. The picture's y points down.
   float depth = orthographic ? (view.far - p.z) / (view.far - view.near) : view.near;
-  // The forward pass draws its triangles again and finds them by equal depth: exactly as written, in every program. (`invariant` would say
-  // the same; Debian 12's validation layer does not know it on a member of a block.)
+  // The forward pass draws its triangles again and finds them by equal depth: exactly as written, in every program.
+  // (`invariant` would say the same; Debian 12's validation layer does not know it on a member of a block.)
   precise vec4 position = vec4((2.0 * p.x - (view.left_edge + view.right_edge) * w) / width,
                                -(2.0 * p.y - (view.bottom_edge + view.top_edge) * w) / height, depth, w);
   gl_Position = position;

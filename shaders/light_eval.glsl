@@ -1,8 +1,9 @@
-// What one light gives to one surface point, and when it gives anything at all: the single definition that every pass uses.
+// What one light gives to one surface point, and when it gives anything at all: the single definition that every pass
+// uses.
 //
-// Falloff: inverse square, windowed to exactly zero at the radius: (1 - (d/r)^4)^2 / max(d^2, 1e-4 m^2), the window of B. Karis,
-// "Real Shading in Unreal Engine 4", 2013; d to the nearest point of the light's source. The shapes: harness/scene/light.h.
-// BRDF: Lambert + GGX with height-correlated Smith visibility and Schlick's Fresnel.
+// Falloff: inverse square, windowed to exactly zero at the radius: (1 - (d/r)^4)^2 / max(d^2, 1e-4 m^2), the window of
+// B. Karis, "Real Shading in Unreal Engine 4", 2013; d to the nearest point of the light's source. The shapes:
+// harness/scene/light.h. BRDF: Lambert + GGX with height-correlated Smith visibility and Schlick's Fresnel.
 #ifndef ML_LIGHT_EVAL_GLSL
 #define ML_LIGHT_EVAL_GLSL
 #include "shaders/constants.glsl"
@@ -36,7 +37,8 @@ LightExtra extra_at(uint light) {
 }
 
 const float min_distance_squared = 1e-4;     // m^2: a light is at least a ball of 1 cm
-const float on_point_distance_squared = 1e-12;  // m^2: nearer than this the light has no direction, and shines along the normal
+// M^2: nearer than this the light has no direction, and shines along the normal.
+const float on_point_distance_squared = 1e-12;
 const float min_roughness = 0.045;           // keeps GGX finite in single precision
 
 // Geometry of a light as seen from a point.
@@ -67,7 +69,8 @@ float light_bound(LightCore light) {
   return light.radius;
 }
 
-// Moves (dx, dy, dz) from the light's centre to the nearest point of its source segment; without a length it stays, bit for bit.
+// Moves (dx, dy, dz) from the light's centre to the nearest point of its source segment; without a length it stays, bit
+// for bit.
 void to_segment(LightExtra extra, inout REAL dx, inout REAL dy, inout REAL dz) {
   REAL sx = REAL(extra.side.x), sy = REAL(extra.side.y), sz = REAL(extra.side.z), limit = REAL(extra.half_length);
   precise REAL along = clamp(-(dx * sx + dy * sy + dz * sz), -limit, limit);
@@ -79,7 +82,8 @@ void to_segment(LightExtra extra, inout REAL dx, inout REAL dy, inout REAL dz) {
   dz = z;
 }
 
-// The part of a box's window that belongs to one axis; false outside. An extent of 0 gives an infinite or no number: outside.
+// The part of a box's window that belongs to one axis; false outside. An extent of 0 gives an infinite or no number:
+// outside.
 bool in_slab(REAL ax, REAL ay, REAL az, REAL half_extent, REAL dx, REAL dy, REAL dz, inout REAL window) {
   precise REAL place = dx * ax + dy * ay + dz * az;
   precise REAL ratio = place * place / (half_extent * half_extent);
@@ -99,15 +103,17 @@ bool in_box(LightExtra extra, REAL dx, REAL dy, REAL dz, out REAL window) {
          in_slab(front.x, front.y, front.z, half_extents.z, dx, dy, dz, window);
 }
 
-// False when the light does not contribute: window 0, behind the surface (unless it is a probe), or outside the cone. `precise` because every pass must decide
-// alike. `extra`: what its shape needs, if anything.
+// False when the light does not contribute: window 0, behind the surface (unless it is a probe), or outside the cone.
+// `precise` because every pass must decide alike. `extra`: what its shape needs, if anything.
 bool light_sample(SurfacePoint point, LightCore light, LightExtra extra, out LightSample result) {
   result.direction = VEC3(0);
   result.cosine = REAL(0);
   result.strength = REAL(0);
   const bool probe = is_probe(light);
-  const bool spot = is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT), wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
-  const bool capsule = is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE), box = is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX);
+  const bool spot = is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT),
+             wedge = is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE);
+  const bool capsule = is_shape(light, EFFECT_CAPSULES, ML_SHAPE_CAPSULE),
+             box = is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX);
   precise REAL dx = REAL(light.position.x) - REAL(point.position.x);
   precise REAL dy = REAL(light.position.y) - REAL(point.position.y);
   precise REAL dz = REAL(light.position.z) - REAL(point.position.z);
@@ -138,8 +144,9 @@ bool light_sample(SurfacePoint point, LightCore light, LightExtra extra, out Lig
   }
   result.strength = window * window / (probe ? REAL(1) : max(distance_squared, REAL(min_distance_squared)));
   if (wedge || spot) {
-    // 1 - cos as half the square of the chord between the two directions. The rounding of their lengths is along the chord's normal and
-    // falls away; a difference of cosines would leave few digits where a narrow cone's edge is all that lights a pixel.
+    // 1 - cos as half the square of the chord between the two directions. The rounding of their lengths is along the
+    // chord's normal and falls away; a difference of cosines would leave few digits where a narrow cone's edge is all
+    // that lights a pixel.
     precise REAL chord_x = result.direction.x + REAL(extra.direction.x);
     precise REAL chord_y = result.direction.y + REAL(extra.direction.y);
     precise REAL chord_z = result.direction.z + REAL(extra.direction.z);
@@ -204,8 +211,9 @@ VEC3 light_shade(SurfacePoint point, LightCore light, LightSample from) {
   return VEC3(light.intensity) * brdf * (from.strength * from.cosine);
 }
 
-// The same without the albedo: the light is albedo * diffuse + specular. Albedo enters light_shade to the first power only, by Lambert's term
-// and by the colour of metals in f0; `diffuse` is all that it multiplies, so a metal's coloured highlights too.
+// The same without the albedo: the light is albedo * diffuse + specular. Albedo enters light_shade to the first power
+// only, by Lambert's term and by the colour of metals in f0; `diffuse` is all that it multiplies, so a metal's coloured
+// highlights too.
 void light_shade_split(SurfacePoint point, LightCore light, LightSample from, out VEC3 diffuse, out VEC3 specular) {
   REAL metallic = REAL(point.metallic);
   REAL coloured = (REAL(1) - metallic) * REAL(lambert), plain = REAL(0);

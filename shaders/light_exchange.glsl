@@ -1,10 +1,13 @@
-// Lights handed around a subgroup: each lane fetches one, so that a light is fetched once for all of them. All lanes must take part.
+// Lights handed around a subgroup: each lane fetches one, so that a light is fetched once for all of them. All lanes
+// must take part.
 #ifndef ML_LIGHT_EXCHANGE_GLSL
 #define ML_LIGHT_EXCHANGE_GLSL
 #include "shaders/light_eval.glsl"
 #include "shaders/subgroup_exchange.glsl"
 
-vec3 of_lane(vec3 value, uint lane) { return vec3(subgroupShuffle(value.x, lane), subgroupShuffle(value.y, lane), subgroupShuffle(value.z, lane)); }
+vec3 of_lane(vec3 value, uint lane) {
+  return vec3(subgroupShuffle(value.x, lane), subgroupShuffle(value.y, lane), subgroupShuffle(value.z, lane));
+}
 
 LightCore light_of_lane(LightCore own, uint lane) {
   LightCore light;
@@ -15,8 +18,8 @@ LightCore light_of_lane(LightCore own, uint lane) {
   return light;
 }
 
-// Of a light fetched before it is known whether its shape needs one: the first light's where it does not, for in a frame of omni lights there are
-// no more.
+// Of a light fetched before it is known whether its shape needs one: the first light's where it does not, for in a
+// frame of omni lights there are no more.
 LightExtra extra_ahead(LightCore light) { return extra_at(has_extra(light) ? light.id_shape & ML_LIGHT_ID_MASK : 0u); }
 
 LightExtra extra_of_lane(LightExtra own, uint lane) {

@@ -1,4 +1,5 @@
-// What vertex shaders of levels with moving meshes (MOVING) read of a draw beside its material, and where its vertices are in this frame.
+// What vertex shaders of levels with moving meshes (MOVING) read of a draw beside its material, and where its vertices
+// are in this frame.
 #ifndef ML_MOTION_GLSL
 #define ML_MOTION_GLSL
 #include "shaders/shared/material.h"

@@ -1,9 +1,11 @@
-// Normals out of a texture in tangent space (glTF 2.0, section 3.9.3 and "normalTexture": x right, y up, z towards the viewer).
+// Normals out of a texture in tangent space (glTF 2.0, section 3.9.3 and "normalTexture": x right, y up, z towards the
+// viewer).
 #ifndef ML_NORMAL_MAP_GLSL
 #define ML_NORMAL_MAP_GLSL
 
-// The direction in which u grows on the surface, at right angles to its normal, and in w the sign of the bitangent, which points to where v falls.
-// 0 where texture coordinates have no area. From differences between neighbouring pixels, for meshes without tangents.
+// The direction in which u grows on the surface, at right angles to its normal, and in w the sign of the bitangent,
+// which points to where v falls. 0 where texture coordinates have no area. From differences between neighbouring
+// pixels, for meshes without tangents.
 vec4 derived_tangent(vec3 normal, vec3 position, vec2 uv) {
   const vec3 right = dFdx(position), down = dFdy(position);
   const vec2 uv_right = dFdx(uv), uv_down = dFdy(uv);

@@ -1,22 +1,30 @@
-// The one shading loop. An algorithm's light_cursor.glsl says which lights are looked at; everything else is the same for all.
+// The one shading loop. An algorithm's light_cursor.glsl says which lights are looked at; everything else is the same
+// for all.
 //
-// The cursor provides:  struct LightCursor;  LightCursor light_begin(SurfacePoint);
-//                       bool light_next(inout LightCursor, out uint light, out float weight);
-// (`light` may be no_light: nothing found this time, ask again) and may define
+// The cursor provides
+//   struct LightCursor;
+//   LightCursor light_begin(SurfacePoint);
+//   bool light_next(inout LightCursor, out uint light, out float weight);
+//     false: no light is left; `light` may be no_light: nothing found this time, ask again
+// and may define
 //   CURSOR_LIGHT(light)  when light data does not come from light_at();
 //   CURSOR_MORE(cursor)  false when light_next() will find nothing, where that is known beforehand;
-//   CURSOR_RUNS          the pixels of a subgroup can walk the lights of a cell together (shade_together.glsl), by
-//                        uint light_cell(SurfacePoint), LightCursor cell_begin(uint cell, float depth, bool counted),
-//                        uint light_first_runs(inout LightCursor, bool here)  the first runs of lights, a bit for each; 0: there are none,
-//                        uint light_next_runs(inout LightCursor, bool here)  those that follow,
-//                        bool light_run(LightCursor, uint bit, bool here, out uint first, out uint count)  a run, and whether the pixel wants it,
-//                        uint run_light(uint place)  a light of a run;
-//   CURSOR_COUNTERS      in the counting variant, with store_counters(ivec2 pixel), which writes what the algorithm counts beside the counters below;
+//   CURSOR_RUNS          when the pixels of a subgroup can walk the lights of a cell together (shade_together.glsl), by
+//     uint light_cell(SurfacePoint);
+//     LightCursor cell_begin(uint cell, float depth, bool counted);
+//     uint light_first_runs(inout LightCursor, bool here);  the first runs of lights, a bit for each; 0: there are none
+//     uint light_next_runs(inout LightCursor, bool here);   those that follow
+//     bool light_run(LightCursor, uint bit, bool here, out uint first, out uint count);
+//       a run, and whether the pixel wants it
+//     uint run_light(uint place);                           a light of a run
+//   CURSOR_COUNTERS      in the counting variant, with store_counters(ivec2 pixel), which writes what the algorithm
+//                        counts beside the counters below;
 //   CURSOR_SHARED        with poison_shared(), which writes poison_word all over the memory that the cursor shares;
-//   CURSOR_CASES         with cursor_case(), light_next_in_list() and light_next_shared(): subgroups whose pixels have something in common
-//                        are walked in a loop of their own.
+//   CURSOR_CASES         with cursor_case(), light_next_in_list() and light_next_shared(): subgroups whose pixels have
+//                        something in common are walked in a loop of their own.
 // With FORWARD it is the fragment shader of the forward pass (shade_forward.glsl): the same loop, a pixel at a time.
-// It reports its work through COUNT_LISTED(n), COUNT_NODES(n), COUNT_TRAVERSAL(class), which are nothing in the timed variant.
+// It reports its work through COUNT_LISTED(n), COUNT_NODES(n), COUNT_TRAVERSAL(class), which are nothing in the timed
+// variant.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -32,10 +40,12 @@ layout(binding = BIND_FORWARD) uniform usampler2D Forward;
 // Surfaces give light by themselves, which comes on top of all lights' (gbuffer.frag).
 layout(binding = BIND_EMISSION) uniform sampler2D Emission;
 #ifndef FORWARD
-// Pixels are walked in blocks of 8x8, those of a list: where something is seen, the tiles of one class, the sampled reference.
+// Pixels are walked in blocks of 8x8, those of a list: where something is seen, the tiles of one class, the sampled
+// reference.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar, binding = BIND_BLOCKS) readonly buffer Blocks { uint blocks[]; };  // column | row << 16
-// Where the dispatch begins in the list, and the lights [first_light, end_light) that the cursor looks at with WALK_RANGES: then the sums and counts of the ranges before are in the pictures.
+// Where the dispatch begins in the list, and the lights [first_light, end_light) that the cursor looks at with
+// WALK_RANGES: then the sums and counts of the ranges before are in the pictures.
 layout(push_constant, scalar) uniform BlockRange { uint first_block, first_light, end_light; };
 layout(rgba32f, binding = BIND_RESULT) uniform image2D Result;
 layout(rgba32f, binding = BIND_SPECULAR) uniform image2D Specular;
@@ -48,7 +58,8 @@ layout(r32ui, binding = BIND_CONTRIBUTING) uniform uimage2D Contributing;
 layout(r32ui, binding = BIND_NODES) uniform uimage2D Nodes;
 layout(r32ui, binding = BIND_HASH) uniform uimage2D Hash;
 layout(r32ui, binding = BIND_TRAVERSAL) uniform uimage2D Traversal;
-uint count_listed = 0u, count_tested = 0u, count_contributing = 0u, count_nodes = 0u, count_hash = 0u, count_traversal = 0u;
+uint count_listed = 0u, count_tested = 0u, count_contributing = 0u, count_nodes = 0u, count_hash = 0u,
+     count_traversal = 0u;
 #define COUNT_LISTED(n) (count_listed += (n))
 #define COUNT_TESTED(n) (count_tested += (n))
 #define COUNT_NODES(n) (count_nodes += (n))
@@ -104,10 +115,10 @@ void add_light(SurfacePoint point, LightCore data, LightSample from, float weigh
     data = CURSOR_LIGHT(light);                                   \
     if (test_light(point, data, from)) add_light(point, data, from, weight, sum); \
   }
-// Every pixel first looks for its next light that contributes, then all shade theirs: so the costly part runs about as often as lights
-// contribute and not as often as they are tested, also where a processor runs its lanes in step. With long lists one loop does both.
-// Loops leave by `break`: with a condition at their end Mesa's software driver lost lights, as if pixels that had left a loop took what others
-// found in later turns.
+// Every pixel first looks for its next light that contributes, then all shade theirs: so the costly part runs about as
+// often as lights contribute and not as often as they are tested, also where a processor runs its lanes in step. With
+// long lists one loop does both. Loops leave by `break`: with a condition at their end Mesa's software driver lost
+// lights, as if pixels that had left a loop took what others found in later turns.
 #define SHADE_LOOP(next_light)                                    \
   if (LONG_LISTS) {                                               \
     while (true) {                                                \
@@ -200,7 +211,8 @@ void main() {
       if (inside && surface_to_light(pixel, point))
     shade_alone(point, sum);
   if (!inside) return;
-  if (EFFECT_EMISSION && !SPLIT_TARGETS && !(WALK_RANGES && first_light != 0u)) sum += VEC3(texelFetch(Emission, ivec2(pixel), 0).rgb);
+  if (EFFECT_EMISSION && !SPLIT_TARGETS && !(WALK_RANGES && first_light != 0u))
+    sum += VEC3(texelFetch(Emission, ivec2(pixel), 0).rgb);
   imageStore(Result, ivec2(pixel), vec4(sum, 1.0));
   if (SPLIT_TARGETS) imageStore(Specular, ivec2(pixel), vec4(sum_specular, 1.0));
 #ifdef COUNTING

@@ -1,8 +1,9 @@
-// The forward pass: meshes of forward materials, drawn again with equal depth, light themselves from the lists that the deferred pass walks.
-// Included by shade.comp.
+// The forward pass: meshes of forward materials, drawn again with equal depth, light themselves from the lists that the
+// deferred pass walks. Included by shade.comp.
 //
-// A pixel belongs to the triangle whose number the g-buffer pass left there, so that it is lit once also where triangles lie in one another.
-// Depth and normal are the g-buffer's, for every pass must decide alike which lights contribute; the material is the mesh's own.
+// A pixel belongs to the triangle whose number the g-buffer pass left there, so that it is lit once also where
+// triangles lie in one another. Depth and normal are the g-buffer's, for every pass must decide alike which lights
+// contribute; the material is the mesh's own.
 #ifndef ML_SHADE_FORWARD_GLSL
 #define ML_SHADE_FORWARD_GLSL
 #include "shaders/shared/material.h"

@@ -1,13 +1,16 @@
-// The shading loop for subgroups whose pixels walk lights together (WALK_TOGETHER). Included by shade.comp for cursors with CURSOR_RUNS.
+// The shading loop for subgroups whose pixels walk lights together (WALK_TOGETHER). Included by shade.comp for cursors
+// with CURSOR_RUNS.
 #ifndef ML_SHADE_TOGETHER_GLSL
 #define ML_SHADE_TOGETHER_GLSL
 #include "shaders/light_exchange.glsl"
 
-// What shapes need beyond a light's core goes with it where that is cheaper than to fetch it in every lane: in small subgroups.
+// What shapes need beyond a light's core goes with it where that is cheaper than to fetch it in every lane: in small
+// subgroups.
 const bool extras_go_along = any_extras && small_subgroup;
 
 // The light that a lane fetched, seen from the point.
-bool sample_of_lane(SurfacePoint point, LightCore own, LightExtra own_extra, uint lane, bool wanted, out LightCore data, out LightSample from) {
+bool sample_of_lane(SurfacePoint point, LightCore own, LightExtra own_extra, uint lane, bool wanted, out LightCore data,
+                    out LightSample from) {
   data = light_of_lane(own, lane);
   if (!extras_go_along) return wanted && light_sample(point, data, from);
   const LightExtra extra = extra_of_lane(own_extra, lane);
@@ -15,7 +18,8 @@ bool sample_of_lane(SurfacePoint point, LightCore own, LightExtra own_extra, uin
 }
 
 // Tests the light that `lane` fetched, and notes in `contributing` whether it contributes.
-void test_lane(SurfacePoint point, LightCore own, LightExtra own_extra, uint lane, uint batch, bool wanted, inout uint contributing) {
+void test_lane(SurfacePoint point, LightCore own, LightExtra own_extra, uint lane, uint batch, bool wanted,
+               inout uint contributing) {
   LightCore data;
   LightSample from;
   wanted = wanted && lane < batch;
@@ -28,19 +32,22 @@ void add_lane(SurfacePoint point, LightCore own, LightExtra own_extra, inout uin
   LightCore data;
   LightSample from;
   const uint lane = contributing != 0u ? uint(findLSB(contributing)) : 0u;
-  if (sample_of_lane(point, own, own_extra, lane, contributing != 0u, data, from)) add_light(point, data, from, 1.0, sum);
+  if (sample_of_lane(point, own, own_extra, lane, contributing != 0u, data, from))
+    add_light(point, data, from, 1.0, sum);
   contributing &= contributing - 1u;
 }
 
-void test_four(SurfacePoint point, LightCore own, LightExtra own_extra, uint lane, uint batch, bool wanted, inout uint contributing) {
+void test_four(SurfacePoint point, LightCore own, LightExtra own_extra, uint lane, uint batch, bool wanted,
+               inout uint contributing) {
   test_lane(point, own, own_extra, lane, batch, wanted, contributing);
   test_lane(point, own, own_extra, lane + 1u, batch, wanted, contributing);
   test_lane(point, own, own_extra, lane + 2u, batch, wanted, contributing);
   test_lane(point, own, own_extra, lane + 3u, batch, wanted, contributing);
 }
 
-// Tests a batch of up to as many lights as there are lanes; a bit for each that contributes. Iterations are few on some drivers
-// (harness/frame/shading_loops.h): four lights each, with long lists eight, and in small subgroups then none but the caller's.
+// Tests a batch of up to as many lights as there are lanes; a bit for each that contributes. Iterations are few on some
+// drivers (harness/frame/shading_loops.h): four lights each, with long lists eight, and in small subgroups then none
+// but the caller's.
 uint test_batch(SurfacePoint point, LightCore own, LightExtra own_extra, uint batch, bool wanted) {
   uint contributing = 0u, i = 0u;
   if (LONG_LISTS && small_subgroup) {
@@ -56,10 +63,11 @@ uint test_batch(SurfacePoint point, LightCore own, LightExtra own_extra, uint ba
   return contributing;
 }
 
-// Tests and shades the lights of some runs, a bit for each and not none, for the pixels that want them. Each lane fetches one light of a batch, and
-// hands it to the others when its turn comes, so that a light is fetched once for all of them. Those that contribute are remembered as bits, and shaded
-// when the batch is tested: in the order of the run, as everywhere. No lane leaves before all are done, for none may be missing in a shuffle. Loops
-// end where they have run.
+// Tests and shades the lights of some runs, a bit for each and not none, for the pixels that want them. Each lane
+// fetches one light of a batch, and hands it to the others when its turn comes, so that a light is fetched once for all
+// of them. Those that contribute are remembered as bits, and shaded when the batch is tested: in the order of the run,
+// as everywhere. No lane leaves before all are done, for none may be missing in a shuffle. Loops end where they have
+// run.
 void shade_runs(SurfacePoint point, LightCursor cursor, uint runs, bool here, inout VEC3 sum) {
   const uint lanes = min(subgroup_lanes(), 32u);
   uint next = 0u, left = 0u;  // of the run that is walked
@@ -98,7 +106,8 @@ void shade_runs(SurfacePoint point, LightCursor cursor, uint runs, bool here, in
 }
 
 // The pixels that lie in one cell walk it together, one cell after the other. `lit`: false for lanes that only help.
-// Loops test at their end: where a processor runs its lanes in step, a turn that finds nothing costs as much as any other.
+// Loops test at their end: where a processor runs its lanes in step, a turn that finds nothing costs as much as any
+// other.
 void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
   const uint none = 0xffffffffu;
   uint left = lit ? light_cell(point) : none;

@@ -1,8 +1,8 @@
-// Votes and minima across a subgroup all of whose lanes take part: never behind && or || or ?: whose first part differs from lane to lane, for what
-// follows is then asked of some lanes only, and what the others hold is missed.
+// Votes and minima across a subgroup all of whose lanes take part: never behind && or || or ?: whose first part differs
+// from lane to lane, for what follows is then asked of some lanes only, and what the others hold is missed.
 //
-// Small subgroups exchange values, log2 of their size times: Mesa's software driver (8 lanes) makes a shuffle one instruction, and a loop over all
-// lanes of every vote, ballot and minimum.
+// Small subgroups exchange values, log2 of their size times: Mesa's software driver (8 lanes) makes a shuffle one
+// instruction, and a loop over all lanes of every vote, ballot and minimum.
 #ifndef ML_SUBGROUP_EXCHANGE_GLSL
 #define ML_SUBGROUP_EXCHANGE_GLSL
 #include "shaders/constants.glsl"

@@ -11,8 +11,8 @@
 // A storage buffer and not a uniform one: lavapipe (Mesa 22.3) writes the uniform values that branches depend on
 // into the program and compiles it anew for every dispatch, inside the time that is measured.
 layout(scalar, binding = BIND_VIEW) readonly buffer View { ViewData view_data; };
-// Read at the start of a program, before all branches: there that driver sees that it is the same for all lanes, elsewhere it reads it lane by
-// lane, which took a third of the time of shading with few lights.
+// Read at the start of a program, before all branches: there that driver sees that it is the same for all lanes,
+// elsewhere it reads it lane by lane, which took a third of the time of shading with few lights.
 ViewData view = view_data;
 
 #ifndef SURFACE_WRITER
@@ -20,7 +20,8 @@ layout(binding = BIND_DEPTH) uniform sampler2D Depth;
 layout(binding = BIND_SURFACE) uniform usampler2D Surface;
 #endif
 
-// Octahedral mapping: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 3(2), 2014.
+// Octahedral mapping: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 3(2),
+// 2014.
 vec2 octahedral_encode(vec3 n) {
   vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
   vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);

@@ -1,5 +1,6 @@
-// Step 1(c): the screen bounds of each visible light. The faces of its hull are clipped against the view, corners of the view that lie in the
-// hull are added, and the bounds of the balls around the light cut off what is left over. The view has no far end: depth is reversed.
+// Step 1(c): the screen bounds of each visible light. The faces of its hull are clipped against the view, corners of
+// the view that lie in the hull are added, and the bounds of the balls around the light cut off what is left over. The
+// view has no far end: depth is reversed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -31,7 +32,10 @@ float near_depth() { return view.near - 1e-5 * abs(view.near); }
 vec4 view_plane(uint plane) {
   if (plane == 0u) return vec4(0, 0, 1, -near_depth());
   const bool orthographic = view.orthographic != 0u;
-  const float edge = plane == 1u ? view.left_edge : plane == 2u ? view.right_edge : plane == 3u ? view.bottom_edge : view.top_edge;
+  const float edge = plane == 1u   ? view.left_edge
+                     : plane == 2u ? view.right_edge
+                     : plane == 3u ? view.bottom_edge
+                                   : view.top_edge;
   const float sign = (plane & 1u) != 0u ? 1.0 : -1.0;
   const vec2 axis = plane <= 2u ? vec2(sign, 0) : vec2(0, sign);
   return vec4(axis, orthographic ? 0.0 : -sign * edge, orthographic ? -sign * edge : 0.0);
@@ -48,8 +52,9 @@ void add_point(vec3 p, float error, inout WindowBounds window) {
 // The planes that a point lies outside of, as bits.
 uint planes_beyond(vec3 point) {
   const float scale = view.orthographic != 0u ? 1.0 : point.z;
-  return (point.z < near_depth() ? 1u : 0u) | (point.x < view.left_edge * scale ? 2u : 0u) | (point.x > view.right_edge * scale ? 4u : 0u) |
-         (point.y < view.bottom_edge * scale ? 8u : 0u) | (point.y > view.top_edge * scale ? 16u : 0u);
+  return (point.z < near_depth() ? 1u : 0u) | (point.x < view.left_edge * scale ? 2u : 0u) |
+         (point.x > view.right_edge * scale ? 4u : 0u) | (point.y < view.bottom_edge * scale ? 8u : 0u) |
+         (point.y > view.top_edge * scale ? 16u : 0u);
 }
 
 void add_face(LightHull hull, uvec4 corners, inout WindowBounds window) {
@@ -94,14 +99,16 @@ WindowBounds hull_bounds(LightHull hull) {
   add_face(hull, uvec4(1, 3, 7, 5), window);
   const float z = near_depth(), scale = view.orthographic != 0u ? 1.0 : z;
   for (uint i = 0u; i < 4u; ++i) {
-    const vec2 place = vec2((i & 1u) != 0u ? view.right_edge : view.left_edge, (i & 2u) != 0u ? view.top_edge : view.bottom_edge);
+    const vec2 place =
+        vec2((i & 1u) != 0u ? view.right_edge : view.left_edge, (i & 2u) != 0u ? view.top_edge : view.bottom_edge);
     const vec3 corner = vec3(place * scale, z);
     if (hull_holds(hull, corner)) add_point(corner, 0.0, window);
   }
   return window;
 }
 
-// Slopes between which a ball's circle in the plane of one axis and depth is seen, as froxels/binning_scalar.cpp has it (Mara & McGuire 2013).
+// Slopes between which a ball's circle in the plane of one axis and depth is seen, as froxels/binning_scalar.cpp has it
+// (Mara & McGuire 2013).
 vec2 ball_interval(float a, float z, float radius) {
   const float distance2 = a * a + z * z, tangent2 = distance2 - radius * radius, tangent = sqrt(max(tangent2, 0.0));
   const float behind = z - view.near, chord = sqrt(max(radius * radius - behind * behind, 0.0));
@@ -109,7 +116,8 @@ vec2 ball_interval(float a, float z, float radius) {
   const float low_a = a * tangent - z * radius, low_z = z * tangent + a * radius;
   const bool high_seen = tangent2 > 0.0 && high_z * tangent >= view.near * distance2;
   const bool low_seen = tangent2 > 0.0 && low_z * tangent >= view.near * distance2;
-  return vec2(low_seen ? low_a / low_z : (a - chord) / view.near, high_seen ? high_a / high_z : (a + chord) / view.near);
+  return vec2(low_seen ? low_a / low_z : (a - chord) / view.near,
+              high_seen ? high_a / high_z : (a + chord) / view.near);
 }
 
 // `away`: the sum of coordinates from which the ball was computed, m.
@@ -123,8 +131,8 @@ WindowBounds window_of_ball(vec3 centre, float radius, float away) {
   return WindowBounds(vec3(across.x, up.x, centre.z - radius), vec3(across.y, up.y, centre.z + radius));
 }
 
-// What is in the ball around the light's position, out of which nothing is lit, and, for a cone, in the small one that its apex and its rim (up to 45
-// degrees) or its rim alone give: algorithms/light_bvh/light_volumes.cpp.
+// What is in the ball around the light's position, out of which nothing is lit, and, for a cone, in the small one that
+// its apex and its rim (up to 45 degrees) or its rim alone give: algorithms/light_bvh/light_volumes.cpp.
 WindowBounds ball_bounds(LightCore light) {
   const vec3 position = to_view(light.position);
   const float away = sum_of_sizes(light.position);

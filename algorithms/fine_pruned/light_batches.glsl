@@ -1,5 +1,5 @@
-// Lights tested against bounds 512 at a time by a workgroup of 64 threads, and their places among those that passed. Who includes this says
-// what the candidates are: `uint candidate(uint place)`, a visible index.
+// Lights tested against bounds 512 at a time by a workgroup of 64 threads, and their places among those that passed.
+// Who includes this says what the candidates are: `uint candidate(uint place)`, a visible index.
 #ifndef ML_FINE_PRUNED_LIGHT_BATCHES_GLSL
 #define ML_FINE_PRUNED_LIGHT_BATCHES_GLSL
 #include "group_votes.glsl"
@@ -25,9 +25,11 @@ ScreenBounds bounds_of(uint light) {
 const uint most_rounds = 8u;  // lights that a thread tests in one batch
 const uint batch = most_rounds * ML_PRUNED_GROUP, batch_words = batch / 32u;
 
-shared uint passed[3u * batch_words];  // which lights of a batch passed; three take turns, so that a barrier a batch is enough
+// Which lights of a batch passed; three take turns, so that a barrier a batch is enough.
+shared uint passed[3u * batch_words];
 
-// Before anything that is shared is written; the pass then does the same with what it shares itself, and a barrier follows.
+// Before anything that is shared is written; the pass then does the same with what it shares itself, and a barrier
+// follows.
 void poison_batches() {
   if (gl_LocalInvocationIndex == 0u) depth_low = depth_high = poison_word;
   for (uint i = gl_LocalInvocationIndex; i < 3u * batch_words; i += ML_PRUNED_GROUP) passed[i] = poison_word;
@@ -40,7 +42,8 @@ void clear_batches() {
     for (uint turn = 0u; turn < 3u; ++turn) passed[turn * batch_words + thread] = 0u;
 }
 
-// After a batch's barrier: clears the field that was last read before it and is next written after the next one's. Returns the next turn.
+// After a batch's barrier: clears the field that was last read before it and is next written after the next one's.
+// Returns the next turn.
 uint next_turn(uint turn) {
   const uint cleared = turn == 0u ? 2u : turn - 1u;
   if (gl_LocalInvocationIndex < batch_words) passed[cleared * batch_words + gl_LocalInvocationIndex] = 0u;
@@ -56,7 +59,9 @@ bool overlaps(ScreenBounds light, ScreenBounds place) {
 }
 
 // Rounds of the batch that begins at candidate `first` in which there are candidates before `count`.
-uint rounds_of(uint first, uint count) { return min((count - first + ML_PRUNED_GROUP - 1u) / ML_PRUNED_GROUP, most_rounds); }
+uint rounds_of(uint first, uint count) {
+  return min((count - first + ML_PRUNED_GROUP - 1u) / ML_PRUNED_GROUP, most_rounds);
+}
 
 // Those of the batch of candidates from `first` on, and before `count`, that overlap: as bits of passed[field ...].
 void test_batch(uint first, uint count, uint field, ScreenBounds place) {

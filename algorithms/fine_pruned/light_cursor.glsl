@@ -1,4 +1,5 @@
-// The lists of the pixel's tile: of direct lights, then of probe lights. Without limits they stand one behind the other and are walked as one.
+// The lists of the pixel's tile: of direct lights, then of probe lights. Without limits they stand one behind the other
+// and are walked as one.
 #include "pruned_lists.h"
 
 layout(constant_id = 32) const bool PACKED = false;
@@ -23,7 +24,8 @@ uint light_cell(SurfacePoint point) {
 
 uint packed_lights(uint list) {
   uint lights = 0u;
-  for (uint word = 0u; word < ML_PACKED_WORDS; ++word) lights += packed_count(packed_lists[list * ML_PACKED_WORDS + word]);
+  for (uint word = 0u; word < ML_PACKED_WORDS; ++word)
+    lights += packed_count(packed_lists[list * ML_PACKED_WORDS + word]);
   return lights;
 }
 
@@ -87,4 +89,6 @@ bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint
   return here;
 }
 #define CURSOR_RUNS
-#define CURSOR_MORE(cursor) ((cursor).next < (cursor).end || (PACKED && EFFECT_PROBES && (cursor).probe_next < (cursor).probe_end))
+#define CURSOR_MORE(cursor)            \
+  ((cursor).next < (cursor).end || \
+   (PACKED && EFFECT_PROBES && (cursor).probe_next < (cursor).probe_end))

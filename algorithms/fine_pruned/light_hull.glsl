@@ -1,4 +1,5 @@
-// The convex hull of a light: an oriented box with a scale of its own at the top four corners (section 2.4), in view space.
+// The convex hull of a light: an oriented box with a scale of its own at the top four corners (section 2.4), in view
+// space.
 #ifndef ML_LIGHT_HULL_GLSL
 #define ML_LIGHT_HULL_GLSL
 #include "shaders/light_eval.glsl"
@@ -11,12 +12,13 @@ struct LightHull {
   float error;     // m: how far rounding may move a computed point of the hull
 };
 
-// Rounding of camera-relative coordinates, per metre of their sum: twice that of the froxel bounds, for devices round divisions and roots
-// less well than processors do.
+// Rounding of camera-relative coordinates, per metre of their sum: twice that of the froxel bounds, for devices round
+// divisions and roots less well than processors do.
 const float hull_absolute = 4e-6;
 const float hull_relative = 1e-4;
 const float hull_least = 1e-5;  // m
-// What the cosine of a cone's edge is lowered by, in bounds and in the fine test: several times the rounding of a normalised product.
+// What the cosine of a cone's edge is lowered by, in bounds and in the fine test: several times the rounding of a
+// normalised product.
 const float cone_margin = 1e-5;
 
 vec3 to_view(vec3 p) { return vec3(dot(p, view.right), dot(p, view.up), dot(p, view.forward)); }
@@ -25,7 +27,8 @@ vec3 any_across(vec3 axis) { return normalize(cross(axis, abs(axis.z) < 0.7 ? ve
 
 float sum_of_sizes(vec3 p) { return abs(p.x) + abs(p.y) + abs(p.z); }
 
-// A cone is narrowed to its apex where that leaves less volume than the straight box: (2 r tan a)^2 r / 3 < (2 r sin a)^2 r, cos a > 3^-1/2.
+// A cone is narrowed to its apex where that leaves less volume than the straight box: (2 r tan a)^2 r / 3 < (2 r sin
+// a)^2 r, cos a > 3^-1/2.
 void cone_hull(LightCore light, LightExtra extra, bool wedge, bool narrowed, inout LightHull hull) {
   const float along = wedge ? extra.half_length : 0.0;
   const float cosine = max(extra.cos_outer - cone_margin, -1.0), sine = sqrt(max(1.0 - cosine * cosine, 0.0));
@@ -73,8 +76,8 @@ LightHull light_hull(LightCore light, bool narrowed) {
     hull.base = hull.top = half_extents.xy;
   }
   hull.v = cross(hull.w, hull.u);
-  // Wider by many times what rounding moves, so that what is computed holds what is meant. Sides that slope do so by less than 3/2, and the
-  // base lies further out than it did.
+  // Wider by many times what rounding moves, so that what is computed holds what is meant. Sides that slope do so by
+  // less than 3/2, and the base lies further out than it did.
   const float away = sum_of_sizes(light.position), size = hull.high - hull.low, wide = max(hull.base.x, hull.base.y);
   const float margin = hull_absolute * away + hull_least;
   const float longer = margin + hull_relative * size, wider = margin + hull_relative * wide;
@@ -90,7 +93,8 @@ LightHull light_hull(LightCore light, bool narrowed) {
 vec3 hull_corner(LightHull hull, uint corner) {
   const bool base = (corner & 4u) != 0u;
   const vec2 half_sides = base ? hull.base : hull.top;
-  return hull.origin + hull.w * (base ? hull.high : hull.low) + hull.u * ((corner & 1u) != 0u ? half_sides.x : -half_sides.x) +
+  return hull.origin + hull.w * (base ? hull.high : hull.low) +
+         hull.u * ((corner & 1u) != 0u ? half_sides.x : -half_sides.x) +
          hull.v * ((corner & 2u) != 0u ? half_sides.y : -half_sides.y);
 }
 
@@ -99,8 +103,8 @@ bool hull_holds(LightHull hull, vec3 point) {
   const float along = dot(from, hull.w);
   const float part = clamp((along - hull.low) / (hull.high - hull.low), 0.0, 1.0);
   const vec2 half_sides = mix(hull.top, hull.base, part) + 4.0 * hull.error;
-  return along >= hull.low - 4.0 * hull.error && along <= hull.high + 4.0 * hull.error && abs(dot(from, hull.u)) <= half_sides.x &&
-         abs(dot(from, hull.v)) <= half_sides.y;
+  return along >= hull.low - 4.0 * hull.error && along <= hull.high + 4.0 * hull.error &&
+         abs(dot(from, hull.u)) <= half_sides.x && abs(dot(from, hull.v)) <= half_sides.y;
 }
 
 #endif

@@ -1,6 +1,6 @@
-// Whether points lie in a light's true volume (step 2(d)): four points at once, those of a thread. The same operations as light_sample()
-// where that decides by exactly rounded ones; a little wider where it divides or takes roots. The surface's normal is no part of the volume,
-// but may be tested besides.
+// Whether points lie in a light's true volume (step 2(d)): four points at once, those of a thread. The same operations
+// as light_sample() where that decides by exactly rounded ones; a little wider where it divides or takes roots. The
+// surface's normal is no part of the volume, but may be tested besides.
 #ifndef ML_LIGHT_VOLUME_GLSL
 #define ML_LIGHT_VOLUME_GLSL
 #include "light_hull.glsl"
@@ -10,10 +10,13 @@
 // With it a light holds a point only where the surface faces it.
 layout(constant_id = 33) const uint PRUNE = ML_PRUNE_FINE;
 
-// What only some shapes have of the light that is tested, where it was fetched beforehand (small subgroups); else fetched when it is needed.
+// What only some shapes have of the light that is tested, where it was fetched beforehand (small subgroups); else
+// fetched when it is needed.
 LightExtra extra_at_hand;
 
-LightExtra extra_of(LightCore light) { return small_subgroup ? extra_at_hand : extra_at(light.id_shape & ML_LIGHT_ID_MASK); }
+LightExtra extra_of(LightCore light) {
+  return small_subgroup ? extra_at_hand : extra_at(light.id_shape & ML_LIGHT_ID_MASK);
+}
 
 struct FourPoints {
   vec4 x, y, z;     // m, camera-relative, world axes
@@ -95,15 +98,17 @@ bool in_box_volume(FourPoints points, LightCore light) {
   if (!is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) return any(both(within_radius(points, ways, light), facing));
   const LightExtra extra = extra_of(light);
   const vec3 half_extents = box_half_extents(extra);
-  const bvec4 inside = both(both(between(ways, extra.side, half_extents.x), between(ways, box_up(extra), half_extents.y)),
-                            between(ways, extra.direction, half_extents.z));
+  const bvec4 inside =
+      both(both(between(ways, extra.side, half_extents.x), between(ways, box_up(extra), half_extents.y)),
+           between(ways, extra.direction, half_extents.z));
   return any(both(both(points.lit, facing), inside));
 }
 
 // Of any type.
 bool in_volume(FourPoints points, LightCore light) {
   if (is_shape(light, EFFECT_BOXES, ML_SHAPE_BOX)) return in_box_volume(points, light);
-  if (is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT) || is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE)) return in_cone(points, light);
+  if (is_shape(light, EFFECT_SPOTS, ML_SHAPE_SPOT) || is_shape(light, EFFECT_WEDGES, ML_SHAPE_WEDGE))
+    return in_cone(points, light);
   return in_ball(points, light);
 }
 

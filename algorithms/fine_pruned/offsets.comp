@@ -1,4 +1,5 @@
-// Where each tile's list begins: running sums of the coarse counts, which no list can be longer than. One workgroup, each thread a run of tiles.
+// Where each tile's list begins: running sums of the coarse counts, which no list can be longer than. One workgroup,
+// each thread a run of tiles.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -15,7 +16,8 @@ uint add(uint a, uint b) { return a + min(b, 0xffffffffu - a); }
 
 void main() {
   const uint thread = gl_LocalInvocationIndex;
-  const uint run = (push.tiles + 255u) / 256u, begin = min(thread * run, push.tiles), end = min(begin + run, push.tiles);
+  const uint run = (push.tiles + 255u) / 256u, begin = min(thread * run, push.tiles),
+             end = min(begin + run, push.tiles);
   uint sum = 0u;
   for (uint tile = begin; tile < end; ++tile) sum = add(sum, tile_counts[tile].x);
   sums[thread] = sum;

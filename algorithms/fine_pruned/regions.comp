@@ -1,5 +1,5 @@
-// Step 2(b), where many lights are in view: the lights that a square of tiles may have, so that its tiles need not look at all. One workgroup
-// of 64 threads a region; the order of the visible lights is kept.
+// Step 2(b), where many lights are in view: the lights that a square of tiles may have, so that its tiles need not look
+// at all. One workgroup of 64 threads a region; the order of the visible lights is kept.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -33,7 +33,8 @@ ScreenBounds region_bounds() {
     }
   add_depths(low, high);
   barrier();
-  return ScreenBounds(corner.x | edge.x << 16, corner.y | edge.y << 16, uintBitsToFloat(depth_low), uintBitsToFloat(depth_high));
+  return ScreenBounds(corner.x | edge.x << 16, corner.y | edge.y << 16, uintBitsToFloat(depth_low),
+                      uintBitsToFloat(depth_high));
 }
 
 void main() {
@@ -54,7 +55,8 @@ void main() {
     const uint rounds = rounds_of(begin, count);
     for (uint round = 0u; round < rounds; ++round) {
       const uvec2 mask = passed_in(field, round);
-      if (has_bit(mask, thread)) region_lists[list + 1u + held + bits_before(mask, thread)] = begin + round * ML_PRUNED_GROUP + thread;
+      if (has_bit(mask, thread))
+        region_lists[list + 1u + held + bits_before(mask, thread)] = begin + round * ML_PRUNED_GROUP + thread;
       held += bitCount(mask.x) + bitCount(mask.y);
     }
     turn = next_turn(turn);

@@ -42,7 +42,8 @@ void load_points() {
   add_depths(low, high);
   barrier();
   const uvec2 edge = min(corner + ML_PRUNED_TILE - 1u, last);
-  tile_bounds = ScreenBounds(corner.x | edge.x << 16, corner.y | edge.y << 16, uintBitsToFloat(depth_low), uintBitsToFloat(depth_high));
+  tile_bounds = ScreenBounds(corner.x | edge.x << 16, corner.y | edge.y << 16, uintBitsToFloat(depth_low),
+                             uintBitsToFloat(depth_high));
 }
 
 #endif

@@ -1,8 +1,10 @@
-// Step 2: the light list of one tile, by one workgroup of 64 threads with 2x2 pixels each. Coarse: every visible light's screen bounds against
-// the tile's. Fine: the coarse lights' true volumes against the tile's pixels, 64 lights at a time.
+// Step 2: the light list of one tile, by one workgroup of 64 threads with 2x2 pixels each. Coarse: every visible
+// light's screen bounds against the tile's. Fine: the coarse lights' true volumes against the tile's pixels, 64 lights
+// at a time.
 //
-// Order comes from bits: a batch of lights is tested into a bit field, and a light's place in the list is the number of bits before its own.
-// So it depends neither on the order of threads nor on the width of a subgroup (light_batches.glsl).
+// Order comes from bits: a batch of lights is tested into a bit field, and a light's place in the list is the number of
+// bits before its own. So it depends neither on the order of threads nor on the width of a subgroup
+// (light_batches.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -15,7 +17,8 @@
 #include "pruned_lists.h"
 #include "tile_points.glsl"
 
-layout(constant_id = 35) const bool REGIONS = false;  // the tile's region has listed the lights that it may have (regions.comp)
+// The tile's region has listed the lights that it may have (regions.comp).
+layout(constant_id = 35) const bool REGIONS = false;
 uint region_list;                                     // where its list begins
 uint candidate(uint place);
 #include "light_batches.glsl"
@@ -29,7 +32,8 @@ const uint mode_packed = 2u;  // the chapter's limits, and 32 bytes a list
 layout(scalar, binding = 18) buffer TileLists { uvec2 tile_lists[]; };  // first light and count
 layout(scalar, binding = 19) writeonly buffer ListLights { uint list_lights[]; };
 layout(scalar, binding = 20) writeonly buffer PackedLists { uint packed_lists[]; };
-layout(scalar, binding = 21) writeonly buffer TileCounts { uvec2 tile_counts[]; };  // lights before and after fine pruning (packed: listed_pair)
+// Lights before and after fine pruning (packed: listed_pair).
+layout(scalar, binding = 21) writeonly buffer TileCounts { uvec2 tile_counts[]; };
 layout(scalar, binding = 22) readonly buffer RegionLists { uint region_lists[]; };
 layout(scalar, push_constant) uniform Push { PrunedPush push; };
 
@@ -48,114 +52,7 @@ void poison_shared() {
 
 uint candidate(uint place) { return REGIONS ? region_lists[region_list + 1u + place] : place; }
 
-// How many of the chunk's lights, of which there are at most 64, come before a visible index.
-uint lights_before(uint begin, uint count, uint value) {
-  uint at = 0u;
-#define STEP(size) \
-  if (at + size <= count && coarse[begin + at + size - 1u] < value) at += size;
-  STEP(64u)
-  STEP(32u)
-  STEP(16u)
-  STEP(8u)
-  STEP(4u)
-  STEP(2u)
-  STEP(1u)
-#undef STEP
-  return at;
-}
-
-// Place in the chunk at which its probe lights begin.
-uint probes_from(uint begin, uint count) { return EFFECT_PROBES ? lights_before(begin, count, visible.first_probe) : count; }
-
-void set_bit(uint at, inout uvec2 mask) {
-  if (at < 32u)
-    mask.x |= 1u << at;
-  else
-    mask.y |= 1u << (at - 32u);
-}
-
-// One loop for each type of volume. Several lights an iteration where there are many (harness/frame/shading_loops.h).
-#define PRUNE(volume, end, at) \
-  if (at < end && volume(points, light_at(visible_lights[coarse[begin + at]]))) set_bit(at, mask);
-#define PRUNE_LOOP(volume, from, end)                                                        \
-  for (uint i = from; i < end; i += LONG_LISTS ? 8u : 2u) {                                  \
-    PRUNE(volume, end, i)                                                                    \
-    PRUNE(volume, end, (i + 1u))                                                             \
-    if (LONG_LISTS) {                                                                        \
-      PRUNE(volume, end, (i + 2u)) PRUNE(volume, end, (i + 3u))                              \
-      PRUNE(volume, end, (i + 4u)) PRUNE(volume, end, (i + 5u))                              \
-      PRUNE(volume, end, (i + 6u)) PRUNE(volume, end, (i + 7u))                              \
-    }                                                                                        \
-  }
-
-uvec2 prune_by_type(uint begin, uint count) {
-  uvec2 mask = uvec2(0u);
-  const uint cones = lights_before(begin, count, visible.first_cone), boxes = lights_before(begin, count, visible.first_box);
-  const uint probes = probes_from(begin, count);
-  if (any(points.lit)) {
-    PRUNE_LOOP(in_ball, 0u, cones)
-    PRUNE_LOOP(in_cone, cones, boxes)
-    PRUNE_LOOP(in_box_volume, boxes, probes)
-    if (EFFECT_PROBES) {
-      const uint probe_cones = lights_before(begin, count, visible.first_probe_cone);
-      const uint probe_boxes = lights_before(begin, count, visible.first_probe_box);
-      PRUNE_LOOP(in_ball, probes, probe_cones)
-      PRUNE_LOOP(in_cone, probe_cones, probe_boxes)
-      PRUNE_LOOP(in_box_volume, probe_boxes, count)
-    }
-  }
-  return mask;
-}
-
-void test_of_lane(LightCore own, LightExtra own_extra, uint lane, uint lanes, uint first, inout uvec2 mask) {
-  const LightCore light = light_of_lane(own, min(lane, lanes - 1u));
-  extra_at_hand = extra_of_lane(own_extra, min(lane, lanes - 1u));
-  if (lane < lanes && in_volume(points, light)) set_bit(first + lane, mask);
-}
-
-// For small subgroups, each lane of which fetches a light and hands it to the others; all of them stay together. One loop for all types: where a
-// loop that has nothing to do costs a turn (Mesa's software driver), three are more than one that tests for each type.
-uvec2 prune_together(uint begin, uint count) {
-  uvec2 mask = uvec2(0u);
-  if (!any_of_all(any(points.lit))) return mask;
-  for (uint first = 0u; first < count; first += SUBGROUP_LANES) {
-    const LightCore own = light_at(visible_lights[coarse[begin + min(first + gl_SubgroupInvocationID, count - 1u)]]);
-    LightExtra own_extra;
-    if (any_extras) own_extra = extra_ahead(own);
-    const uint lanes = min(count - first, SUBGROUP_LANES);
-    uint lane = 0u;
-    do {
-      test_of_lane(own, own_extra, lane, lanes, first, mask);
-      test_of_lane(own, own_extra, lane + 1u, lanes, first, mask);
-      if (LONG_LISTS) {
-        test_of_lane(own, own_extra, lane + 2u, lanes, first, mask);
-        test_of_lane(own, own_extra, lane + 3u, lanes, first, mask);
-        test_of_lane(own, own_extra, lane + 4u, lanes, first, mask);
-        test_of_lane(own, own_extra, lane + 5u, lanes, first, mask);
-        test_of_lane(own, own_extra, lane + 6u, lanes, first, mask);
-        test_of_lane(own, own_extra, lane + 7u, lanes, first, mask);
-      }
-      lane += LONG_LISTS ? 8u : 2u;
-    } while (lane < lanes);
-  }
-  return mask;
-}
-
-// Which of the coarse lights begin .. begin + count, at most 64, hold a pixel of the tile. The coarse list was written before a barrier that
-// all threads have passed.
-uvec2 prune(uint begin, uint count) {
-  if (PRUNE == ML_PRUNE_COARSE) return uvec2(count < 32u ? (1u << count) - 1u : 0xffffffffu,
-                          count < 32u ? 0u : count < 64u ? (1u << (count - 32u)) - 1u : 0xffffffffu);
-  if (gl_LocalInvocationIndex < 2u) survivors[gl_LocalInvocationIndex] = 0u;
-  barrier();
-  uvec2 mask = small_subgroup ? prune_together(begin, count) : prune_by_type(begin, count);
-  SET_BITS(survivors[0], mask.x)
-  SET_BITS(survivors[1], mask.y)
-  barrier();
-  mask = uvec2(survivors[0], survivors[1]);
-  barrier();
-  return mask;
-}
+#include "prune.glsl"
 
 // Prunes a chunk and appends what is left to the tile's list.
 void append_chunk(uint begin, uint count, uint first, inout uint listed) {
@@ -172,7 +69,8 @@ void append_chunk(uint begin, uint count, uint first, inout uint listed) {
     listed = listed_pair(direct, all - direct);
     return;
   }
-  if (has_bit(mask, thread)) list_lights[first + listed + bits_before(mask, thread)] = visible_lights[coarse[begin + thread]];
+  if (has_bit(mask, thread))
+    list_lights[first + listed + bits_before(mask, thread)] = visible_lights[coarse[begin + thread]];
   listed += all;
 }
 
@@ -184,7 +82,8 @@ uint keep_batch(uint first_light, uint count, uint field, uint held) {
     const uvec2 mask = passed_in(field, round);
     if (MODE != mode_count && has_bit(mask, thread)) {
       const uint place = before + bits_before(mask, thread);
-      if (MODE == mode_lists || place < ML_PRUNED_CHUNK) coarse[place] = candidate(first_light + round * ML_PRUNED_GROUP + thread);
+      if (MODE == mode_lists || place < ML_PRUNED_CHUNK)
+        coarse[place] = candidate(first_light + round * ML_PRUNED_GROUP + thread);
     }
     before += bitCount(mask.x) + bitCount(mask.y);
   }
@@ -202,7 +101,8 @@ void main() {
   const bool no_room = MODE == mode_lists && first == ML_PRUNED_ALL;
   // A tile of sky has an empty list.
   if (REGIONS)
-    region_list = push.region_words * ((gl_WorkGroupID.y >> push.region_shift) * push.region_columns + (gl_WorkGroupID.x >> push.region_shift));
+    region_list = push.region_words * ((gl_WorkGroupID.y >> push.region_shift) * push.region_columns +
+                                       (gl_WorkGroupID.x >> push.region_shift));
   const uint candidates = REGIONS ? region_lists[region_list] : visible.count;
   const uint count = no_room || !(tile_bounds.near <= tile_bounds.far) ? 0u : candidates;
   uint demand = 0u, held = 0u, listed = 0u, turn = 0u;
@@ -217,7 +117,8 @@ void main() {
     if (MODE == mode_lists && held >= ML_PRUNED_CHUNK) {
       barrier();
       uint done = 0u;
-      for (; held - done >= ML_PRUNED_CHUNK; done += ML_PRUNED_CHUNK) append_chunk(done, ML_PRUNED_CHUNK, first, listed);
+      for (; held - done >= ML_PRUNED_CHUNK; done += ML_PRUNED_CHUNK)
+        append_chunk(done, ML_PRUNED_CHUNK, first, listed);
       held -= done;
       const uint rest = thread < held ? coarse[done + thread] : 0u;
       barrier();

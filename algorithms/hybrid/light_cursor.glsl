@@ -1,5 +1,5 @@
-// The list or the tree of the pixel's froxel. Lists are one-node trees, so one walk does for all; what a whole subgroup has in common
-// can be walked in ways of its own (section 3.4), each behind a switch so that its gain can be measured:
+// The list or the tree of the pixel's froxel. Lists are one-node trees, so one walk does for all; what a whole subgroup
+// has in common can be walked in ways of its own (section 3.4), each behind a switch so that its gain can be measured:
 //   case 0  every pixel of the subgroup walks a list: no node is looked at again
 //   case 1  every pixel of the subgroup walks the same tree: its nodes are copied to shared memory
 //   case 2  anything else
@@ -59,14 +59,15 @@ uint cursor_case(inout LightCursor cursor) {
   }
   if (SHARED_TREE) {
     const uint share = shared_capacity / gl_NumSubgroups;
-    // A pixel with a list has node 0 and end 0: a tree that begins at node 0 is told from it by its end. Asked of all lanes, one question
-    // after the other.
+    // A pixel with a list has node 0 and end 0: a tree that begins at node 0 is told from it by its end. Asked of all
+    // lanes, one question after the other.
     const bool same_node = subgroupAllEqual(cursor.node), same_end = subgroupAllEqual(cursor.end);
     if (same_node && same_end && nodes != 0u && nodes <= share) {
       // Pixels of the sky have no cursor: the lanes that are left share the copying.
       const uvec4 lanes = subgroupBallot(true);
       const uint base = gl_SubgroupID * share, step = subgroupBallotBitCount(lanes);
-      for (uint i = subgroupBallotExclusiveBitCount(lanes); i < nodes; i += step) shared_nodes[base + i] = tree_node(cursor.node + i);
+      for (uint i = subgroupBallotExclusiveBitCount(lanes); i < nodes; i += step)
+        shared_nodes[base + i] = tree_node(cursor.node + i);
       subgroupMemoryBarrierShared();
       subgroupBarrier();
       cursor.node = base;

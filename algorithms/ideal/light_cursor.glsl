@@ -1,4 +1,5 @@
-// The pixel's own list of contributing lights; where pixels walk together the list of all lights that contribute to some pixel of their group.
+// The pixel's own list of contributing lights; where pixels walk together the list of all lights that contribute to
+// some pixel of their group.
 #include "shaders/shared/pixel_groups.h"
 
 layout(constant_id = 32) const uint GROUP_PIXELS = 8u;

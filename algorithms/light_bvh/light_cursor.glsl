@@ -1,5 +1,5 @@
-// The pixel's own walk through the one tree of spheres. The post's loop, mended: leaves are marked and not guessed from their links, so that the last
-// one is lit too, and the walk ends where the nodes do.
+// The pixel's own walk through the one tree of spheres. The post's loop, mended: leaves are marked and not guessed from
+// their links, so that the last one is lit too, and the walk ends where the nodes do.
 layout(constant_id = 32) const uint NODE_WORDS = 6u;  // 6 or 8 words a node
 layout(scalar, binding = 16) readonly buffer Tree { uint node_count_data; };
 uint node_count = node_count_data;  // read before all branches, as the view is (shaders/surface.glsl)
@@ -21,7 +21,8 @@ SphereNode sphere_node(uint node) {
   uvec2 b;
   if (TEXEL_FETCH) {
     // Six words from an even one on.
-    const uvec4 first = texelFetch(SphereNodesQuads, int(word >> 2)), second = texelFetch(SphereNodesQuads, int(word >> 2) + 1);
+    const uvec4 first = texelFetch(SphereNodesQuads, int(word >> 2)),
+                second = texelFetch(SphereNodesQuads, int(word >> 2) + 1);
     const bool half_way = (word & 2u) != 0u;
     a = half_way ? uvec4(first.zw, second.xy) : first;
     b = half_way ? second.zw : second.xy;

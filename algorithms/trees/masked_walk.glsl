@@ -1,15 +1,18 @@
-// The newer walk of the authors of Tiled Light Trees, over our binary trees: a subtree of up to 64 leaves is looked at as one of two levels, nodes that
-// cover up to 8 leaves each, and those leaves. Every pixel asks the upper ones with its own depth, then the leaves below those that it hits; what the
-// pixels of a subgroup hit is put together in one mask of 64 bits, and all of them take every leaf in it: no depth is asked again.
-// Included by tree_walk.glsl.
+// The newer walk of the authors of Tiled Light Trees, over our binary trees: a subtree of up to 64 leaves is looked at
+// as one of two levels, nodes that cover up to 8 leaves each, and those leaves. Every pixel asks the upper ones with
+// its own depth, then the leaves below those that it hits; what the pixels of a subgroup hit is put together in one
+// mask of 64 bits, and all of them take every leaf in it: no depth is asked again. Included by tree_walk.glsl.
 #ifndef ML_MASKED_WALK_GLSL
 #define ML_MASKED_WALK_GLSL
 
 // Place of a node after the root of a full binary tree that is stored depth first (algorithms/trees/forest_chunk.h).
-uint depth_first_place(uint height, uint level, uint index) { return level + (index << (height - level + 1u)) - uint(bitCount(index)); }
+uint depth_first_place(uint height, uint level, uint index) {
+  return level + (index << (height - level + 1u)) - uint(bitCount(index));
+}
 
-// Which of 8 nodes of a level, from `index` on, hold the pixel's depth: a bit each. Nodes from `count` or the tree's end on do not exist: there would
-// be padding only. Each lane fetches one and hands it to the others. `asks`: lanes that do not get nothing.
+// Which of 8 nodes of a level, from `index` on, hold the pixel's depth: a bit each. Nodes from `count` or the tree's
+// end on do not exist: there would be padding only. Each lane fetches one and hands it to the others. `asks`: lanes
+// that do not get nothing.
 uint nodes_hit(LightCursor cursor, uint height, uint level, uint index, uint count, bool asks) {
   const uint lanes = min(subgroup_lanes(), 8u), lane = gl_SubgroupInvocationID;
   uint hits = 0u, first = 0u;
@@ -45,10 +48,12 @@ uint nodes_hit(LightCursor cursor, uint height, uint level, uint index, uint cou
   return asks ? hits : 0u;
 }
 
-// Leaves of the subtree at the cursor's node that pixels of the subgroup hit, the first 32 in x. No subtree, too tall or left out: height > 6.
+// Leaves of the subtree at the cursor's node that pixels of the subgroup hit, the first 32 in x. No subtree, too tall
+// or left out: height > 6.
 uvec2 merged_leaves(LightCursor cursor, uint height, bool here) {
   if (height > 6u) return uvec2(0u);
-  const uint below = min(height, 3u), level = height - below;  // levels from the upper nodes to the leaves, and that of the upper nodes
+  // Levels from the upper nodes to the leaves, and that of the upper nodes.
+  const uint below = min(height, 3u), level = height - below;
   const uint upper = nodes_hit(cursor, height, level, 0u, 1u << level, here);
   // A root that is a leaf has nothing below.
   uvec2 mask = uvec2(below == 0u ? upper : 0u, 0u);
@@ -68,8 +73,9 @@ uvec2 merged_leaves(LightCursor cursor, uint height, bool here) {
   return uvec2(bits_of_all(mask.x), bits_of_all(mask.y));
 }
 
-// Goes on to the next leaves that pixels of the subgroup hit, or behind the tree. A tree of more leaves is one subtree of 64 after another; of these, and
-// of the nodes above them, those that no pixel hits are left out with all that is below.
+// Goes on to the next leaves that pixels of the subgroup hit, or behind the tree. A tree of more leaves is one subtree
+// of 64 after another; of these, and of the nodes above them, those that no pixel hits are left out with all that is
+// below.
 uint masked_runs(inout LightCursor cursor, bool here) {
   bool second_half = cursor.later != 0u;
   if (!second_half) {

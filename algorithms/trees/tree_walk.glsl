@@ -1,7 +1,6 @@
 // The stackless walk through a tile's or froxel's tree (Tiled Light Trees, listing 3): strictly forwards, to the next
-// node where the pixel's depth is inside, over all that is below where it is not.
-// HAS_TREES: false where all cells are lists that stand in the cell, which need no walk. MASKED: subgroups that walk together do so by
-// masked_walk.glsl.
+// node where the pixel's depth is inside, over all that is below where it is not. HAS_TREES: false where all cells are
+// lists that stand in the cell, which need no walk. MASKED: subgroups that walk together do so by masked_walk.glsl.
 #ifndef ML_TREE_WALK_GLSL
 #define ML_TREE_WALK_GLSL
 layout(constant_id = 40) const bool HAS_TREES = true;
@@ -39,8 +38,8 @@ struct LightCursor {
   // A subgroup that walks together: the run of lights that this lane found, and the depths at which it shines.
   uint run_first, run_count;
   float run_low, run_high;
-  // MASKED: run_first and run_count are of all lights from leaf 0 of 32 on, of which each has so many, but for the last. Leaves that are walked, and
-  // those of the 32 after these.
+  // MASKED: run_first and run_count are of all lights from leaf 0 of 32 on, of which each has so many, but for the
+  // last. Leaves that are walked, and those of the 32 after these.
   uint leaf_lights, leaves, later;
 };
 
@@ -52,7 +51,8 @@ LightCursor cell_begin(uint cell, float depth, bool counted) {
   const uint node = list ? 0u : place.first, end = list ? 0u : place.end;
   const uint next = list ? place.first : 0u, last = list ? place.first + (place.end & ~ML_TREE_CELL_LIST) : 0u;
   // To the masked walk a list is one leaf.
-  LightCursor cursor = LightCursor(node, end, next, last, depth, next, last - next, -any_depth, any_depth, last - next, 1u, 0u);
+  LightCursor cursor =
+      LightCursor(node, end, next, last, depth, next, last - next, -any_depth, any_depth, last - next, 1u, 0u);
 #ifdef COUNTING
   if (counted) {
     // Nodes that stand side by side: one tree, or the leaves of one list.
@@ -82,8 +82,8 @@ void tree_step(inout LightCursor cursor, TreeNode node) {
   }
 }
 
-// A light of the leaf that is walked; at a leaf's end takes one node, which may lead to no light. No loop: its iterations would add to those of
-// the caller's (harness/frame/shading_loops.h).
+// A light of the leaf that is walked; at a leaf's end takes one node, which may lead to no light. No loop: its
+// iterations would add to those of the caller's (harness/frame/shading_loops.h).
 bool tree_next(inout LightCursor cursor, out uint light, out float weight) {
   weight = 1.0;
   light = no_light;
@@ -117,17 +117,20 @@ bool some_depth_in(float low, float high, float depth, bool here) {
     DEPTH_OF_LANE(7u)
 #undef DEPTH_OF_LANE
   } else {
-    // Between the nearest and the farthest: no leaf is missed, some are taken in vain. As bits, which are in order for depths (> 0).
+    // Between the nearest and the farthest: no leaf is missed, some are taken in vain. As bits, which are in order for
+    // depths (> 0).
     const uint bits = floatBitsToUint(max(depth, 0.0));
-    const uint nearest = lowest_of_all(here ? bits : 0xffffffffu), farthest = ~lowest_of_all(here ? ~bits : 0xffffffffu);
+    const uint nearest = lowest_of_all(here ? bits : 0xffffffffu),
+               farthest = ~lowest_of_all(here ? ~bits : 0xffffffffu);
     some = nearest <= farthest && low <= uintBitsToFloat(farthest) && uintBitsToFloat(nearest) <= high;
   }
   return some;
 }
 
-// A subgroup that walks together takes as many nodes at once as it has lanes, one each, and with them every leaf that holds a pixel's depth. All
-// nodes above such a leaf hold it too, so leaves tell alone; of the others those that are missed tell how far the next nodes can be left out.
-// Adds what it finds to `runs`; ends with the first that are there, or behind the tree.
+// A subgroup that walks together takes as many nodes at once as it has lanes, one each, and with them every leaf that
+// holds a pixel's depth. All nodes above such a leaf hold it too, so leaves tell alone; of the others those that are
+// missed tell how far the next nodes can be left out. Adds what it finds to `runs`; ends with the first that are there,
+// or behind the tree.
 void tree_runs(inout LightCursor cursor, bool here, inout uint runs) {
   const uint lanes = min(subgroup_lanes(), 32u), lane = gl_SubgroupInvocationID;
   do {

@@ -1,0 +1,119 @@
+// The fine test (step 2(d)) of up to 64 coarse lights of a tile, against every pixel of it. Before it comes what
+// tiles.comp shares: coarse[] and survivors[].
+#ifndef ML_PRUNE_GLSL
+#define ML_PRUNE_GLSL
+
+// How many of the chunk's lights, of which there are at most 64, come before a visible index.
+uint lights_before(uint begin, uint count, uint value) {
+  uint at = 0u;
+#define STEP(size) \
+  if (at + size <= count && coarse[begin + at + size - 1u] < value) at += size;
+  STEP(64u)
+  STEP(32u)
+  STEP(16u)
+  STEP(8u)
+  STEP(4u)
+  STEP(2u)
+  STEP(1u)
+#undef STEP
+  return at;
+}
+
+// Place in the chunk at which its probe lights begin.
+uint probes_from(uint begin, uint count) {
+  return EFFECT_PROBES ? lights_before(begin, count, visible.first_probe) : count;
+}
+
+void set_bit(uint at, inout uvec2 mask) {
+  if (at < 32u)
+    mask.x |= 1u << at;
+  else
+    mask.y |= 1u << (at - 32u);
+}
+
+// One loop for each type of volume. Several lights an iteration where there are many (harness/frame/shading_loops.h).
+#define PRUNE(volume, end, at) \
+  if (at < end && volume(points, light_at(visible_lights[coarse[begin + at]]))) set_bit(at, mask);
+#define PRUNE_LOOP(volume, from, end)                                                        \
+  for (uint i = from; i < end; i += LONG_LISTS ? 8u : 2u) {                                  \
+    PRUNE(volume, end, i)                                                                    \
+    PRUNE(volume, end, (i + 1u))                                                             \
+    if (LONG_LISTS) {                                                                        \
+      PRUNE(volume, end, (i + 2u)) PRUNE(volume, end, (i + 3u))                              \
+      PRUNE(volume, end, (i + 4u)) PRUNE(volume, end, (i + 5u))                              \
+      PRUNE(volume, end, (i + 6u)) PRUNE(volume, end, (i + 7u))                              \
+    }                                                                                        \
+  }
+
+uvec2 prune_by_type(uint begin, uint count) {
+  uvec2 mask = uvec2(0u);
+  const uint cones = lights_before(begin, count, visible.first_cone),
+             boxes = lights_before(begin, count, visible.first_box);
+  const uint probes = probes_from(begin, count);
+  if (any(points.lit)) {
+    PRUNE_LOOP(in_ball, 0u, cones)
+    PRUNE_LOOP(in_cone, cones, boxes)
+    PRUNE_LOOP(in_box_volume, boxes, probes)
+    if (EFFECT_PROBES) {
+      const uint probe_cones = lights_before(begin, count, visible.first_probe_cone);
+      const uint probe_boxes = lights_before(begin, count, visible.first_probe_box);
+      PRUNE_LOOP(in_ball, probes, probe_cones)
+      PRUNE_LOOP(in_cone, probe_cones, probe_boxes)
+      PRUNE_LOOP(in_box_volume, probe_boxes, count)
+    }
+  }
+  return mask;
+}
+
+void test_of_lane(LightCore own, LightExtra own_extra, uint lane, uint lanes, uint first, inout uvec2 mask) {
+  const LightCore light = light_of_lane(own, min(lane, lanes - 1u));
+  extra_at_hand = extra_of_lane(own_extra, min(lane, lanes - 1u));
+  if (lane < lanes && in_volume(points, light)) set_bit(first + lane, mask);
+}
+
+// For small subgroups, each lane of which fetches a light and hands it to the others; all of them stay together. One
+// loop for all types: where a loop that has nothing to do costs a turn (Mesa's software driver), three are more than
+// one that tests for each type.
+uvec2 prune_together(uint begin, uint count) {
+  uvec2 mask = uvec2(0u);
+  if (!any_of_all(any(points.lit))) return mask;
+  for (uint first = 0u; first < count; first += SUBGROUP_LANES) {
+    const LightCore own = light_at(visible_lights[coarse[begin + min(first + gl_SubgroupInvocationID, count - 1u)]]);
+    LightExtra own_extra;
+    if (any_extras) own_extra = extra_ahead(own);
+    const uint lanes = min(count - first, SUBGROUP_LANES);
+    uint lane = 0u;
+    do {
+      test_of_lane(own, own_extra, lane, lanes, first, mask);
+      test_of_lane(own, own_extra, lane + 1u, lanes, first, mask);
+      if (LONG_LISTS) {
+        test_of_lane(own, own_extra, lane + 2u, lanes, first, mask);
+        test_of_lane(own, own_extra, lane + 3u, lanes, first, mask);
+        test_of_lane(own, own_extra, lane + 4u, lanes, first, mask);
+        test_of_lane(own, own_extra, lane + 5u, lanes, first, mask);
+        test_of_lane(own, own_extra, lane + 6u, lanes, first, mask);
+        test_of_lane(own, own_extra, lane + 7u, lanes, first, mask);
+      }
+      lane += LONG_LISTS ? 8u : 2u;
+    } while (lane < lanes);
+  }
+  return mask;
+}
+
+// Which of the coarse lights begin .. begin + count, at most 64, hold a pixel of the tile. The coarse list was written
+// before a barrier that all threads have passed.
+uvec2 prune(uint begin, uint count) {
+  if (PRUNE == ML_PRUNE_COARSE) return uvec2(count < 32u ? (1u << count) - 1u : 0xffffffffu,
+                          count < 32u ? 0u : count < 64u ? (1u << (count - 32u)) - 1u : 0xffffffffu);
+  if (gl_LocalInvocationIndex < 2u) survivors[gl_LocalInvocationIndex] = 0u;
+  barrier();
+  uvec2 mask = small_subgroup ? prune_together(begin, count) : prune_by_type(begin, count);
+  SET_BITS(survivors[0], mask.x)
+  SET_BITS(survivors[1], mask.y)
+  barrier();
+  mask = uvec2(survivors[0], survivors[1]);
+  barrier();
+  return mask;
+}
+
+#endif
