@@ -12,6 +12,7 @@
 #include "algorithms/algorithm.h"
 #include "harness/lights/set.h"
 #include "harness/scene/scene.h"
+#include "scenes/load_scene.h"
 
 namespace ml {
 
