@@ -22,6 +22,7 @@
 #include "harness/base/error.h"
 #include "harness/base/random.h"
 #include "harness/frame/frame_input.h"
+#include "scenes/load_scene.h"
 
 namespace ml::bench_inputs {
 

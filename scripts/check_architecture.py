@@ -9,7 +9,7 @@ Rules
 - Vulkan is named in harness/gpu alone (and in tests/layer, which stands in for a driver).
 - A C++ file has at most 450 lines, a shader 250; a line of GLSL has at most 120 columns (clang-format holds C++ to its own).
 - Folders of algorithms/ that several algorithms are made of (SHARED) have README.md; froxels knows nothing of trees.
-- An algorithm's folder has README.md and light_cursor.glsl, and registry.cpp includes its header.
+- An algorithm's folder has README.md and light_cursor.glsl, a scene's README.md and scene.json, and registry.cpp includes its header.
 - No path of somebody's machine, no note of work left to do.
 
 Exit code 0: nothing found; 1: something found.
@@ -28,7 +28,7 @@ ARROWS = {
     "lights": ["base", "scene"],
     "camera": ["base", "scene"],
     "gltf": ["base", "scene", "lights", "camera"],
-    "scenes": ["base", "scene", "gltf"],
+    "scenes": ["base", "scene", "lights", "gltf"],
     "gpu": ["base"],
     "output": ["base", "measure"],
     "accuracy": ["base", "measure", "output"],
@@ -37,10 +37,11 @@ ARROWS = {
     "config": ["base", "scene", "lights", "scenes", "algorithms"],
     "bench": ["base", "scene", "lights", "scenes", "gpu", "algorithms", "shaders", "measure", "output", "accuracy", "frame", "config"],
     # gpu and frame for the lists of devices and effects
-    "cli": ["base", "scene", "gpu", "frame", "config", "bench"],
+    "cli": ["base", "scene", "gltf", "scenes", "gpu", "frame", "config", "bench"],
 }
 SHADERS = ["shaders"]  # what GLSL may include besides its own folder
-FOLDERS = {"algorithms", "scenes"}  # their folders are rooms that only their registry.cpp names
+# Their folders are rooms that only their registry.cpp names; each has these files.
+FOLDERS = {"algorithms": ("README.md", "light_cursor.glsl"), "scenes": ("README.md", "scene.json")}
 SHARED = {"froxels", "trees"}  # folders in algorithms/ that several algorithms are made of; trees stand on froxels
 OUTSIDE = {"tests", "benchmarks", "examples"}  # may use every room but cli
 
@@ -64,7 +65,7 @@ def room_of(path):
         return parts[1]
     if len(parts) >= 3 and parts[0] in FOLDERS:
         return f"{parts[0]}/{parts[1]}"
-    if len(parts) >= 2 and parts[0] in FOLDERS | {"shaders"} or parts[0] in OUTSIDE:
+    if len(parts) >= 2 and (parts[0] in FOLDERS or parts[0] == "shaders") or parts[0] in OUTSIDE:
         return parts[0]
     return None
 
@@ -125,28 +126,26 @@ def check_file(path, text):
             yield number, "Vulkan is named in harness/gpu alone"
 
 
-def check_algorithms(root):
-    folder = root / "algorithms"
+def check_registry(root, kind):
+    """What the folders of `kind`, algorithms or scenes, lack."""
+    folder = root / kind
     if not folder.is_dir():
         return
     registry = folder / "registry.cpp"
     registered = registry.read_text() if registry.exists() else ""
-    for algorithm in sorted(entry for entry in folder.iterdir() if entry.is_dir()):
-        name = algorithm.name
-        if name in SHARED:
-            if not (algorithm / "README.md").exists():
-                yield f"algorithms/{name}", 1, "README.md is missing"
-            continue
-        for needed in ("README.md", "light_cursor.glsl"):
-            if not (algorithm / needed).exists():
-                yield f"algorithms/{name}", 1, f"{needed} is missing"
-        if f'"algorithms/{name}/' not in registered:
-            yield f"algorithms/{name}", 1, "registry.cpp does not include it"
+    for entry in sorted(entry for entry in folder.iterdir() if entry.is_dir()):
+        name = entry.name
+        shared = kind == "algorithms" and name in SHARED
+        for needed in ("README.md",) if shared else FOLDERS[kind]:
+            if not (entry / needed).exists():
+                yield f"{kind}/{name}", 1, f"{needed} is missing"
+        if not shared and f'"{kind}/{name}/' not in registered:
+            yield f"{kind}/{name}", 1, "registry.cpp does not include it"
 
 
 def check_tree(root):
     """All faults as (file, line, what)."""
-    faults = list(check_algorithms(root))
+    faults = [fault for kind in FOLDERS for fault in check_registry(root, kind)]
     for path in sorted(root.rglob("*")):
         relative = path.relative_to(root)
         if SKIPPED & set(relative.parts) or path.is_symlink() or not path.is_file() or path.suffix not in TEXT:
@@ -169,6 +168,10 @@ def self_test():
         "algorithms/near/README.md": "# near\n",
         "algorithms/near/light_cursor.glsl": '#include "shaders/shared/light.h"\n',
         "algorithms/near/bounds.cpp": '#include "algorithms/near/near.h"\n#include "shaders/shared/view.h"\n',
+        "scenes/registry.cpp": '#include "scenes/hill/hill.h"\n',
+        "scenes/hill/hill.h": '#include "scenes/scene_registry.h"\n#include "harness/scene/scene.h"\n',
+        "scenes/hill/README.md": "# hill\n",
+        "scenes/hill/scene.json": "{}\n",
         "harness/gpu/device.cpp": "#include <vulkan/vulkan_raii.hpp>\nvk::raii::Context context;\n",
         "harness/frame/level.cpp": '#include "harness/gpu/device.h"\n#include "algorithms/algorithm.h"\n',
         "harness/cli/run.cpp": '#include "harness/bench/runner.h"\n',
@@ -180,7 +183,7 @@ def self_test():
         ("harness/scene/x.cpp", '#include "harness/lights/set.h"\n', 1, "scene may include"),
         ("harness/lights/x.cpp", '#include "harness/camera/orbit_path.h"\n', 1, "lights may include"),
         ("harness/camera/x.cpp", '#include "harness/lights/set.h"\n', 1, "camera may include"),
-        ("harness/gltf/x.cpp", '#include "scenes/scenes.h"\n', 1, "gltf may include"),
+        ("harness/gltf/x.cpp", '#include "scenes/load_scene.h"\n', 1, "gltf may include"),
         ("scenes/x.cpp", '#include "algorithms/algorithm.h"\n', 1, "scenes may include"),
         ("scenes/hill/x.cpp", '#include "harness/gpu/device.h"\n', 1, "scenes/hill may include"),
         ("scenes/hill/x.cpp", '#include "scenes/dale/dale.h"\n', 1, "only registry.cpp"),
@@ -208,6 +211,7 @@ def self_test():
         ("shaders/x.glsl", "// " + "wide " * 24 + "\n", 1, "columns"),
         ("README.md", "cd /ho" + "me/somebody/bench\n", 1, "somebody's machine"),
         ("algorithms/lost/light_cursor.glsl", "", 1, None),
+        ("scenes/lost/scene.json", "{}", 1, None),
     ]
 
     def faults_of(files):
@@ -221,7 +225,7 @@ def self_test():
     wrong = [f"the good tree: {fault}" for fault in faults_of(good)]
     for name, text, line, words in bad:
         faults = faults_of({**good, name: text})
-        if words is None:  # a folder without README and without a line in the registry
+        if words is None:  # a folder without README.md and without a line in registry.cpp
             if sorted(what for _, _, what in faults) != ["README.md is missing", "registry.cpp does not include it"]:
                 wrong.append(f"{name}: {faults}")
         elif len(faults) != 1 or faults[0][:2] != (name, line) or words not in faults[0][2]:

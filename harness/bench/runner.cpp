@@ -16,6 +16,7 @@
 #include "harness/bench/interruption.h"
 #include "harness/bench/progress.h"
 #include "harness/bench/setup_run.h"
+#include "scenes/load_scene.h"
 
 namespace ml {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "harness/frame/shading_loops.h"
+#include "scenes/load_scene.h"
 
 namespace ml {
 namespace {

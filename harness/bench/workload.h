@@ -7,6 +7,7 @@
 #include "harness/config/config.h"
 #include "harness/frame/device_frame.h"
 #include "harness/frame/frame_input.h"
+#include "scenes/load_scene.h"
 
 namespace ml {
 

@@ -1,3 +1,5 @@
+#include "harness/camera/automatic_path.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include "harness/config/config.h"
 #include "harness/frame/frame_options.h"
 #include "harness/gpu/device.h"
+#include "scenes/scene_registry.h"
 
 namespace ml {
 namespace {
@@ -122,7 +123,8 @@ void print_rows(const std::vector<Row>& rows) {
 std::vector<Row> rows_of(const std::string& what) {
   std::vector<Row> rows;
   if (what == "scenes")
-    for (const SceneInfo& info : procedural_scenes()) rows.push_back({info.name, info.summary});
+    for (const SceneEntry& scene : scene_registry())
+      rows.push_back({scene.description.name, scene.description.summary});
   else if (what == "configs")
     for (const ConfigInfo& info : known_configs()) rows.push_back({info.name, info.summary});
   else if (what == "devices")

@@ -4,6 +4,8 @@
 
 #include "harness/cli/commands.h"
 #include "harness/config/config.h"
+#include "harness/gltf/gltf.h"
+#include "scenes/load_scene.h"
 
 namespace ml {
 namespace {

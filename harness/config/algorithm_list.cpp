@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "harness/base/error.h"
-#include "harness/config/json_text.h"
+#include "harness/base/json_text.h"
 
 namespace ml {
 

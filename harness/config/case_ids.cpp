@@ -69,6 +69,7 @@ std::vector<const Key*> varying_keys(const std::vector<Setup>& setups) {
                                              "lights.count"};
     if (!key.sweepable || key.section || shown.contains(key.path)) continue;
     if (key.path == "lights.placement" && all_own(setups, &LightSpec::placement)) continue;
+    if (key.path == "lights.animate" && all_own(setups, &LightSpec::script)) continue;
     if (key.path == "lights.radius_ratio" && all_own(setups, &LightSpec::radius_ratio)) continue;
     drafts[0].setup = setups[0];
     json first = key.write(drafts[0]);

@@ -4,10 +4,11 @@
 #include <optional>
 
 #include "harness/base/error.h"
+#include "harness/base/json_text.h"
 #include "harness/config/algorithm_list.h"
-#include "harness/config/json_text.h"
 #include "harness/config/keys.h"
 #include "harness/config/sweep.h"
+#include "scenes/scene_registry.h"
 
 namespace ml {
 
@@ -125,8 +126,8 @@ void check_setup(const Setup& setup, const OutputSpec& outputs, const Source& so
   }
 }
 
-// Names the scene's own placement and radius ratio where nothing else is said. The draft, which is written as
-// the resolved configuration, leaves them out when they depend on which scene of a sweep it is.
+// Names the scene's own placement, radius ratio and script where nothing else is said. The draft, which is
+// written as the resolved configuration, leaves them out when they depend on which scene of a sweep it is.
 void complete_lights(Draft& draft, std::vector<Setup>& setups) {
   const LightDefaults first = light_defaults(setups.front().scene);
   bool alike = true;
@@ -143,7 +144,7 @@ Config build_config(const json& document, const std::string& source_name,
   Source source{source_name, relative_to};
   Draft draft;
   draft.name = name_from(source_name);
-  draft.setup.scene.procedural = "canyon";
+  draft.setup.scene.procedural = scene_names().front();
   draft.setup.lights.auto_count = true;
   static const json all = "all";
   draft.setup.algorithms = read_algorithms(Node(all, source, "$.algorithms"));

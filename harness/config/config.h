@@ -13,6 +13,7 @@
 #include "harness/lights/set.h"
 #include "harness/scene/effects.h"
 #include "harness/scene/scene.h"
+#include "scenes/load_scene.h"
 
 namespace ml {
 

@@ -5,8 +5,8 @@
 
 #include "harness/base/error.h"
 #include "harness/base/file.h"
+#include "harness/base/json_text.h"
 #include "harness/config/config.h"
-#include "harness/config/json_text.h"
 
 namespace ml {
 

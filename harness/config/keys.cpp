@@ -7,6 +7,7 @@
 #include "harness/base/error.h"
 #include "harness/config/algorithm_list.h"
 #include "harness/config/sections.h"
+#include "scenes/load_scene.h"
 
 namespace ml {
 

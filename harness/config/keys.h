@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/json_node.h"
 #include "harness/config/config.h"
-#include "harness/config/node.h"
 
 namespace ml {
 

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "harness/base/error.h"
+#include "scenes/scene_registry.h"
 
 namespace ml {
 
@@ -49,10 +50,8 @@ void read_light_count(const Node& node, LightSpec& lights) {
 
 void read_scene_name(const Node& node, SceneSpec& scene) {
   std::string name = node.text(1, 100);
-  std::vector<std::string> known;
-  for (const SceneInfo& info : procedural_scenes()) known.push_back(info.name);
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
-    node.fail("unknown scene '" + name + "'" + suggestion(name, known) +
+  if (!find_scene(name)) {
+    node.fail("unknown scene '" + name + "'" + suggestion(name, scene_names()) +
               " (a file is given as {\"gltf\": \"level.glb\"})");
   }
   scene.procedural = name;
@@ -234,7 +233,7 @@ std::span<const Field<LightSpec>> light_fields() {
       {"seed", [](const Node& n, L& l) { l.seed = n.unsigned_integer(0, most_seed); },
        [](const L& l) { return json(l.seed); }},
       {"animate", [](const Node& n, L& l) { l.script = read_enum<LightScript>(n, light_script_names()); },
-       [](const L& l) { return write_enum(l.script, light_script_names()); }},
+       [](const L& l) { return l.script ? write_enum(*l.script, light_script_names()) : json(); }},
   });
   return fields;
 }

@@ -4,8 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "harness/base/json_node.h"
 #include "harness/config/config.h"
-#include "harness/config/node.h"
+#include "scenes/load_scene.h"
 
 namespace ml {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "harness/base/json_text.h"
 #include "harness/config/algorithm_list.h"
-#include "harness/config/json_text.h"
 #include "harness/config/sections.h"
 
 namespace ml {

@@ -6,6 +6,7 @@
 #include "harness/base/error.h"
 #include "harness/base/file.h"
 #include "harness/gltf/glb_writer.h"
+#include "harness/gltf/gltf.h"
 #include "harness/gltf/parts.h"
 #include "harness/lights/set.h"
 

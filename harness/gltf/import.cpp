@@ -3,6 +3,8 @@
 
 #include "harness/base/error.h"
 #include "harness/base/file.h"
+#include "harness/camera/automatic_path.h"
+#include "harness/gltf/gltf.h"
 #include "harness/gltf/parts.h"
 #include "harness/scene/draw_motion.h"
 

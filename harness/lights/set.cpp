@@ -27,19 +27,17 @@ bool has_own_radii(std::optional<Placement> placement) {
   return placement == Placement::clumps || placement == Placement::stage || placement == Placement::room;
 }
 
-// The closed-form scene has its own lights: equal, at one height, uniform over its area whatever the
-// placement.
 LightSpec adapted(LightSpec spec, const Scene& scene) {
-  spec = completed(spec, scene.light_defaults);
-  const bool closed_form = scene.name == "plane" && spec.placement != Placement::gltf;
-  if (closed_form) spec.placement = Placement::area;
+  const LightDefaults& defaults = scene.light_defaults;
+  spec = completed(spec, defaults);
+  const bool placed = spec.placement != Placement::gltf;  // else sizes and places are the file's
+  if (placed && defaults.fixed_placement) spec.placement = defaults.placement;
+  if (placed && spec.radius == 0 && spec.base_size == 0) spec.radius = defaults.radius;
+  if (placed && spec.height == 0) spec.height = defaults.height;
   if (spec.placement == Placement::room && spec.radius == 0 && spec.base_size == 0) spec.radius = kRoomRadius;
   if (spec.radius_ratio == 0)
     spec.radius_ratio =
         spec.placement == Placement::clumps ? clump_radius_ratio(spec.count) : LightDefaults().radius_ratio;
-  if (!closed_form) return spec;
-  if (spec.radius == 0 && spec.base_size == 0) spec.radius = 4;
-  if (spec.height == 0) spec.height = 2;
   return spec;
 }
 
@@ -105,6 +103,7 @@ const std::vector<std::string>& light_script_names() {
 
 LightSpec completed(LightSpec spec, const LightDefaults& defaults) {
   if (!spec.placement) spec.placement = defaults.placement;
+  if (!spec.script) spec.script = defaults.script;
   if (spec.radius_ratio == 0 && !has_own_radii(spec.placement)) spec.radius_ratio = defaults.radius_ratio;
   return spec;
 }
@@ -218,11 +217,11 @@ void LightSet::place_lights(const Scene& scene) {
 void LightSet::at(uint32_t frame, uint32_t frames, double duration, std::vector<Light>& out,
                   std::vector<uint32_t>* identity) const {
   const double time = script_time(frame, frames, duration);
-  if (!motions_) return run_script(spec_.script, spec_.seed, time, lights_, out, identity);
+  if (!motions_) return run_script(*spec_.script, spec_.seed, time, lights_, out, identity);
   std::vector<Light> moved;
   std::vector<uint32_t> numbers;  // in lights_
   move_lights(motions_->time_of(frame, frames), moved, numbers);
-  run_script(spec_.script, spec_.seed, time, moved, out, identity);
+  run_script(*spec_.script, spec_.seed, time, moved, out, identity);
   if (!identity) return;
   for (uint32_t& number : *identity) number = numbers[number];
 }

@@ -15,8 +15,6 @@ namespace ml {
 
 // s(N) shrinks so that overdraw stays | the same s at every N.
 enum class Sizing { const_overdraw, fixed_size };
-// The configuration's name of `none` is "static".
-enum class LightScript { none, drift, spawn, orbit };
 
 // Names as in a configuration, in the order of the enumerators.
 const std::vector<std::string>& placement_names();
@@ -45,10 +43,10 @@ struct LightSpec {
   float probe_fraction = 0;
   float intensity = 1;  // factor on all intensities, > 0
   uint32_t seed = 1;
-  LightScript script = LightScript::none;
+  std::optional<LightScript> script;  // none: the scene's own
 };
 
-// `spec` with the placement and the radius ratio of the scene where it names none.
+// `spec` with the placement, the radius ratio and the script of the scene where it names none.
 LightSpec completed(LightSpec spec, const LightDefaults& defaults);
 
 // Radii beyond these (m) leave the range of single precision when the shaders square them; positions (m) have

@@ -125,15 +125,4 @@ Scene MeshBuilder::finish() {
   return scene;
 }
 
-Scene MeshBuilder::finish_level(const std::string& name, const LightDefaults& lights, float far,
-                                std::vector<CameraPath> paths) {
-  Scene scene = finish();
-  scene.name = name;
-  scene.light_defaults = lights;
-  scene.near = 0.1f;
-  scene.far = far;
-  scene.paths = std::move(paths);
-  return scene;
-}
-
 }  // namespace ml

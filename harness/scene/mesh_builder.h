@@ -46,9 +46,6 @@ class MeshBuilder {
 
   // The scene of all that was built; the builder is empty afterwards.
   Scene finish();
-  // The same with what makes it a level, seen from 0.1 m to `far` m.
-  Scene finish_level(const std::string& name, const LightDefaults& lights, float far,
-                     std::vector<CameraPath> paths);
 
  private:
   struct Key {

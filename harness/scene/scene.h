@@ -6,10 +6,8 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <glm/glm.hpp>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -137,55 +135,5 @@ struct Scene {
   // The path of that name. Throws UsageError with the nearest known name.
   const CameraPath& path(const std::string& path_name) const;
 };
-
-// What `list scenes` and the tests read about a procedural scene.
-struct SceneInfo {
-  std::string name;
-  std::string summary;  // one line
-  LightDefaults lights;
-};
-std::vector<SceneInfo> procedural_scenes();
-
-// What a configuration's "scene" says: a procedural scene or a glTF/GLB file.
-struct SceneSpec {
-  std::string procedural;      // name, or empty
-  std::filesystem::path gltf;  // file, or empty
-  // The folder in or below which the file's buffers and textures must lie, so that a level cannot read what
-  // is none of its business; empty: the file's own folder.
-  std::filesystem::path root;
-  int gltf_scene = -1;  // which of the file's scenes; -1 is the file's default
-  uint32_t seed = 1;    // procedural generation and automatic camera paths
-  glm::dvec3 offset{
-      0};  // m, added to the whole level in double: the far-from-origin test; |component| <= 1e9
-  bool two_sided =
-      false;  // every material is drawn from both sides: for levels whose winding is not reliable
-};
-
-// The light defaults of the scene that load_scene(spec) gives, without making it.
-LightDefaults light_defaults(const SceneSpec& spec);
-
-// Throws UsageError (unknown name, bad file) with one line that names the file and the place in it.
-Scene load_scene(const SceneSpec& spec);
-
-// Reads a .gltf or .glb. A file without a camera gets automatic paths.
-// `root`: SceneSpec::root.
-Scene import_gltf(const std::filesystem::path& file, int scene_index, uint32_t seed, const glm::dvec3& offset,
-                  const std::filesystem::path& root = {});
-// The same from memory, for tests and fuzzing; `name` stands in for the file name in errors, and external
-// buffers are refused.
-Scene import_gltf_memory(std::span<const std::byte> bytes, const std::string& name, int scene_index,
-                         uint32_t seed, const glm::dvec3& offset);
-
-// Writes scene, cameras (the keys of the default path as an animated camera) and lights (KHR_lights_punctual
-// with extras for the shapes that it does not have, up to 4096; above that in a binary side file
-// FILE.lights.bin named in the file's extras; formats: harness/gltf/parts.h). Byte-identical on every
-// machine. Throws SystemError, and UsageError for a scene without triangles and for a light that
-// rejection_reason() refuses.
-void export_glb(const Scene& scene, const std::vector<Light>& lights, const std::filesystem::path& file);
-
-// A path at eye height (1.7 m) above upward-facing floor, looking along long free views; seeded,
-// deterministic. Levels without any floor, and those that a visitor would look past, get one around their
-// bounds (orbit_path.h). Every frame sees a surface, where any can be seen from outside.
-CameraPath automatic_path(const Scene& scene, uint32_t seed);
 
 }  // namespace ml

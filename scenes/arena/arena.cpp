@@ -1,8 +1,8 @@
-#include <array>
+#include "scenes/arena/arena.h"
 
+#include "embedded/arena_scene_json.h"
 #include "harness/scene/turned_mesh.h"
 #include "scenes/arena/parts.h"
-#include "scenes/procedural.h"
 
 namespace ml {
 namespace {
@@ -75,47 +75,28 @@ void build_arena_house(MeshBuilder& mesh, const ArenaMaterials& materials) {
     house.box({x - 0.05, 0.02, -4.5}, {x + 0.05, 0.7, -3.7}, materials.metal, kNoBottom);
 }
 
-CameraPath make_arena_path() {
-  CameraPath path;
-  path.name = "default";
-  // From above a corner down to the ground, across the arena on foot, and back above the objects.
-  path.keys = {{0, {-39, 9, 39}, {-10, 0, 8}},     {4, {-31, 4.5, 27}, {-17, 1, 6}},
-               {7, {-24, 1.9, 16}, {-14, 1.4, 0}}, {10, {-16, 1.7, 3}, {0, 1.5, -8}},
-               {13, {-4, 1.7, -6}, {12, 1.5, -6}}, {16, {8, 1.7, -4}, {22, 1.5, 8}},
-               {19, {18, 1.7, 6}, {30, 1.5, 22}},  {22, {26, 1.9, 18}, {30, 1.8, 36}},
-               {25, {31, 4, 30}, {12, 1, 40}},     {28, {25, 8.5, 37}, {0, 0, 24}},
-               {31, {8, 11, 37}, {-14, 0, 10}},    {34, {-12, 10, 31}, {-20, 0, 0}},
-               {37, {-29, 7, 20}, {-24, 0, -14}},  {40, {-37, 4, 4}, {-20, 0, -26}}};
-  return path;
-}
+namespace {
 
-CameraPath make_room_path() {
-  CameraPath path;
-  path.name = "room";
-  // Round the pillars; the door is behind or beside.
-  auto at = [](double x, double y, double z) { return glm::dvec3(kRoomX + x, y, kRoomZ + z); };
-  path.keys = {{0, at(-4.4, 1.7, 0), at(5, 1.2, 0)},
-               {5, at(-1, 1.6, 2), at(5, 1.4, -4)},
-               {10, at(2.5, 1.8, 1), at(4, 1.0, -6)},
-               {15, at(3, 2.2, -1), at(5.5, 1.5, -7)},
-               {20, at(2.5, 2.6, -2), at(6, 0.5, 5)}};
-  return path;
-}
-
-Scene make_arena(uint32_t seed) {
+Scene make_arena(const SceneDescription& description, uint32_t seed) {
   MeshBuilder mesh;
   ArenaMaterials materials = add_materials(mesh);
-  CameraPath path = make_arena_path();
-  const std::vector<glm::dvec3> keep_clear = path.places(400);
+  std::vector<CameraPath> paths = camera_paths(description);
+  const std::vector<glm::dvec3> keep_clear = paths[0].places(400);
   Random ground(hash_u32(seed, 51)), objects(hash_u32(seed, 52));
   build_arena_ground(mesh, materials, ground);
   build_arena_house(mesh, materials);
   build_arena_objects(mesh, materials, objects, keep_clear);
 
-  Scene scene = mesh.finish_level("arena", kArenaLights, 150, {path, make_room_path()});
+  Scene scene = finish_level(mesh, description, std::move(paths));
   scene.rooms = {{glm::vec3(kRoomX - kRoomHalf, 0, kRoomZ - kRoomHalf),
                   glm::vec3(kRoomX + kRoomHalf, kRoomHeight, kRoomZ + kRoomHalf)}};
   return scene;
+}
+
+}  // namespace
+
+SceneEntry arena_scene() {
+  return {read_description("arena", arena_scene_json), make_arena};
 }
 
 }  // namespace ml

@@ -1,4 +1,4 @@
-// The parts of the arena: objects of five kinds, a house of one room, camera paths. The middle is at x = z =
+// The parts of the arena: objects of five kinds, a house of one room. The middle is at x = z =
 // 0; y is up, the ground is at 0.
 #pragma once
 
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "harness/base/random.h"
-#include "harness/scene/camera.h"
 #include "harness/scene/mesh_builder.h"
 
 namespace ml {
@@ -33,8 +32,5 @@ void build_crate(MeshBuilder& mesh, const ArenaMaterials& materials, Random& ran
 // All objects, none near the points of `keep_clear`, the house or one another. Returns their number.
 int build_arena_objects(MeshBuilder& mesh, const ArenaMaterials& materials, Random& random,
                         const std::vector<glm::dvec3>& keep_clear);
-
-CameraPath make_arena_path();
-CameraPath make_room_path();  // within the house
 
 }  // namespace ml

@@ -1,5 +1,7 @@
+#include "scenes/citadel/citadel.h"
+
+#include "embedded/citadel_scene_json.h"
 #include "scenes/citadel/parts.h"
-#include "scenes/procedural.h"
 
 namespace ml {
 namespace {
@@ -23,14 +25,13 @@ CitadelMaterials add_materials(MeshBuilder& mesh) {
   return materials;
 }
 
-}  // namespace
-
-Scene make_citadel(uint32_t seed) {
+Scene make_citadel(const SceneDescription& description, uint32_t seed) {
   MeshBuilder mesh;
   CitadelMaterials materials = add_materials(mesh);
   HeightField ground = make_citadel_ground(seed);
-  CameraPath path = make_citadel_path(ground);
-  const std::vector<glm::dvec3> keep_clear = path.places(400);
+  std::vector<CameraPath> paths =
+      camera_paths(description, [&](double x, double z) { return ground.height(x, z); });
+  const std::vector<glm::dvec3> keep_clear = paths[0].places(400);
 
   build_ground(mesh, materials, ground);
   build_ring_wall(mesh, materials);
@@ -40,7 +41,13 @@ Scene make_citadel(uint32_t seed) {
   std::vector<glm::dvec2> farms = build_farms(mesh, materials, ground, fields, keep_clear);
   build_conifers(mesh, materials, ground, woods, keep_clear, farms);
 
-  return mesh.finish_level("citadel", kCitadelLights, 900, {path});
+  return finish_level(mesh, description, std::move(paths));
+}
+
+}  // namespace
+
+SceneEntry citadel_scene() {
+  return {read_description("citadel", citadel_scene_json), make_citadel};
 }
 
 }  // namespace ml

@@ -1,4 +1,4 @@
-// The parts of the citadel: ground, fortification, houses, trees, camera path. The hill's top is at x = z = 0
+// The parts of the citadel: ground, fortification, houses, trees. The hill's top is at x = z = 0
 // and the gate to its south (+z); y is up, the fields are at about 0.
 #pragma once
 
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "harness/base/random.h"
-#include "harness/scene/camera.h"
 #include "harness/scene/height_field.h"
 #include "harness/scene/mesh_builder.h"
 #include "harness/scene/turned_mesh.h"
@@ -29,7 +28,6 @@ void build_ground(MeshBuilder& mesh, const CitadelMaterials& materials, const He
 
 constexpr double kWallRadius = 105;  // m, of the corners of the ring wall's middle line
 constexpr double kWallFoot = 13, kWallWalk = 21;
-constexpr double kWallAxis = 104.2;  // m from the middle: a way along the walk that keeps off its towers
 constexpr double kKeepRoof = 46, kKeepHalf = 12, kSpireTop = 96;
 void build_ring_wall(MeshBuilder& mesh, const CitadelMaterials& materials);
 void build_keep(MeshBuilder& mesh, const CitadelMaterials& materials);
@@ -49,8 +47,5 @@ std::vector<glm::dvec2> build_farms(MeshBuilder& mesh, const CitadelMaterials& m
 void build_conifers(MeshBuilder& mesh, const CitadelMaterials& materials, const HeightField& ground,
                     Random& random, const std::vector<glm::dvec3>& keep_clear,
                     const std::vector<glm::dvec2>& farms);
-
-// 60 s: 0 s 330 m south, 15 s gate, 17 s streets, 36 s wall walk, 45 s roof of the keep, 51 s spiral out.
-CameraPath make_citadel_path(const HeightField& ground);
 
 }  // namespace ml

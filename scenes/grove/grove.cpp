@@ -1,6 +1,8 @@
+#include "scenes/grove/grove.h"
+
+#include "embedded/grove_scene_json.h"
 #include "harness/scene/noise.h"
 #include "scenes/grove/parts.h"
-#include "scenes/procedural.h"
 
 namespace ml {
 namespace {
@@ -39,41 +41,16 @@ void build_ground(MeshBuilder& mesh, const GroveMaterials& materials, const Heig
   });
 }
 
-CameraPath make_grove_path(const HeightField& ground, const GroveWay& way) {
-  CameraPath path;
-  path.name = "default";
-  auto above = [&](const glm::dvec2& place, double eye) {
-    return glm::dvec3(place.x, ground.height(place.x, place.y) + eye, place.y);
-  };
-  auto along = [&](double length, double across, double eye) {
-    return above(way.at(length).beside(across), eye);
-  };
-  // Along the way, from one fence towards the other; then over the right-hand one.
-  double time = 0, length = 6;
-  for (int i = 0; i <= 11; ++i, time += 2, length += 13) {
-    double sway = i % 4 < 2 ? 0.7 : -0.7;
-    path.keys.push_back({time, along(length, sway, 1.35), along(length + 11, -1.6 * sway, 1.2)});
-  }
-  path.keys.push_back({24, along(154, 0.4, 2.1), along(163, 2, 1.6)});
-  path.keys.push_back({26, along(162, 4.2, 2.6), along(171, 1, 1)});
-  // Beside the way among the trees, looking across both fences.
-  path.keys.push_back({28, along(170, 6.2, 1.8), along(179, -4, 1)});
-  path.keys.push_back({31, along(181, 6.4, 1.5), along(190, -5, 1)});
-  path.keys.push_back({34, along(192, 6.2, 1.6), along(202, -4, 1)});
-  path.keys.push_back({36, along(201, 4, 2.8), along(213, -1, 1)});
-  // Back over the way, high enough to look along both fences.
-  path.keys.push_back({38, along(210, 0.5, 4), along(224, 0, 1)});
-  path.keys.push_back({40, along(219, 0, 4.5), along(235, 0, 1.5)});
-  return path;
-}
+namespace {
 
-Scene make_grove(uint32_t seed) {
+Scene make_grove(const SceneDescription& description, uint32_t seed) {
   MeshBuilder mesh;
   GroveMaterials materials = add_materials(mesh);
   HeightField ground = make_grove_ground(seed);
   GroveWay way;
-  CameraPath path = make_grove_path(ground, way);
-  const std::vector<glm::dvec3> keep_clear = path.places(400);
+  std::vector<CameraPath> paths =
+      camera_paths(description, [&](double x, double z) { return ground.height(x, z); });
+  const std::vector<glm::dvec3> keep_clear = paths[0].places(400);
 
   build_ground(mesh, materials, ground, way);
   build_fences(mesh, materials, ground, way);
@@ -81,7 +58,13 @@ Scene make_grove(uint32_t seed) {
   Random woods(hash_u32(seed, 21));
   build_trees(mesh, materials, ground, way, woods, keep_clear);
 
-  return mesh.finish_level("grove", kGroveLights, 350, {path});
+  return finish_level(mesh, description, std::move(paths));
+}
+
+}  // namespace
+
+SceneEntry grove_scene() {
+  return {read_description("grove", grove_scene_json), make_grove};
 }
 
 }  // namespace ml

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "harness/base/random.h"
-#include "harness/scene/camera.h"
 #include "harness/scene/height_field.h"
 #include "harness/scene/mesh_builder.h"
 
@@ -58,9 +57,5 @@ void build_lamps(MeshBuilder& mesh, const GroveMaterials& materials, const Heigh
 // None within some metres of the points of `keep_clear`.
 void build_trees(MeshBuilder& mesh, const GroveMaterials& materials, const HeightField& ground,
                  const GroveWay& way, Random& random, const std::vector<glm::dvec3>& keep_clear);
-
-// 40 s: 0 s along the way between the fences, 24 s over a fence and among the trees, looking across both
-// fences, 33 s back over the way.
-CameraPath make_grove_path(const HeightField& ground, const GroveWay& way);
 
 }  // namespace ml

@@ -1,8 +1,7 @@
-#include <algorithm>
-#include <cmath>
+#include "scenes/museum/museum.h"
 
+#include "embedded/museum_scene_json.h"
 #include "scenes/museum/parts.h"
-#include "scenes/procedural.h"
 
 namespace ml {
 namespace {
@@ -36,45 +35,7 @@ MuseumMaterials add_materials(MeshBuilder& mesh) {
   return materials;
 }
 
-}  // namespace
-
-CameraPath make_museum_path() {
-  struct Room {
-    int i, k;
-  };
-  static constexpr Room tour[]{{0, 0}, {1, 0}, {1, 1}, {2, 1}, {3, 1}, {3, 0}, {4, 0},
-                               {4, 1}, {4, 2}, {3, 2}, {2, 2}, {2, 1}, {1, 1}};
-  constexpr size_t kRooms = std::size(tour);
-  // Middles and doorways in turn.
-  std::vector<glm::dvec3> places;
-  auto middle = [&](size_t n) { return museum_room(tour[n].i, tour[n].k); };
-  for (size_t n = 0; n < kRooms; ++n) {
-    glm::dvec3 from = middle(n > 0 ? n - 1 : 0), here = middle(n), to = middle(std::min(n + 1, kRooms - 1));
-    glm::dvec3 in = (here - from) / kMuseumPitch, out = (to - here) / kMuseumPitch;
-    // A turn is cut short; the ends are a little before and behind the middle.
-    places.push_back(here + 0.8 * (out - in) * (n == 0 || n + 1 == kRooms ? -3.0 : 1.0));
-    if (n + 1 < kRooms) places.push_back(0.5 * (here + to));
-  }
-  CameraPath path;
-  path.name = "default";
-  const size_t last = places.size() - 1;
-  constexpr double kDuration = 60;
-  for (size_t n = 0; n <= last; ++n) {
-    double time = kDuration * static_cast<double>(n) / static_cast<double>(last);
-    // Slowly up and down, and the look to one side and the other.
-    glm::dvec3 eye = places[n] + glm::dvec3(0, n % 6 < 3 ? 1.7 : 2.1, 0);
-    size_t ahead = std::min(n + 2, last);
-    glm::dvec3 target = places[ahead] + glm::dvec3(0, n % 4 < 2 ? 2.0 : 2.6, 0);
-    if (n + 2 > last)
-      target = places[last] +
-               6.0 * static_cast<double>(n + 2 - last) * (places[last] - places[last - 1]) / kMuseumPitch +
-               glm::dvec3(0, 2.2, 0);
-    path.keys.push_back({time, eye, target});
-  }
-  return path;
-}
-
-Scene make_museum(uint32_t seed) {
+Scene make_museum(const SceneDescription& description, uint32_t seed) {
   MeshBuilder mesh;
   MuseumMaterials materials = add_materials(mesh);
   Random walls(hash_u32(seed, 31)), exhibits(hash_u32(seed, 32));
@@ -82,7 +43,7 @@ Scene make_museum(uint32_t seed) {
   build_museum_columns(mesh, materials);
   build_museum_exhibits(mesh, materials, exhibits);
 
-  Scene scene = mesh.finish_level("museum", kMuseumLights, 80, {make_museum_path()});
+  Scene scene = finish_level(mesh, description, camera_paths(description));
   for (int k = 0; k < kMuseumRoomsZ; ++k) {
     for (int i = 0; i < kMuseumRoomsX; ++i) {
       const double half = 0.5 * (kMuseumPitch - kMuseumWall);
@@ -92,6 +53,12 @@ Scene make_museum(uint32_t seed) {
     }
   }
   return scene;
+}
+
+}  // namespace
+
+SceneEntry museum_scene() {
+  return {read_description("museum", museum_scene_json), make_museum};
 }
 
 }  // namespace ml

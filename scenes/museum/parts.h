@@ -1,4 +1,4 @@
-// The parts of the museum: rooms, columns, exhibits, camera path. Five rooms along x and three along z stand
+// The parts of the museum: rooms, columns, exhibits. Five rooms along x and three along z stand
 // around x = z = 0; y is up, the floor is at 0.
 #pragma once
 
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "harness/base/random.h"
-#include "harness/scene/camera.h"
 #include "harness/scene/mesh_builder.h"
 
 namespace ml {
@@ -34,7 +33,5 @@ int build_museum_columns(MeshBuilder& mesh, const MuseumMaterials& materials);
 
 // Three plinths a room, clear of the lines between doorways, each with something on it.
 int build_museum_exhibits(MeshBuilder& mesh, const MuseumMaterials& materials, Random& random);
-
-CameraPath make_museum_path();
 
 }  // namespace ml

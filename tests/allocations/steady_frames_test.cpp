@@ -13,6 +13,7 @@
 #include "algorithms/algorithm.h"
 #include "harness/frame/frame_input.h"
 #include "heap_watch.h"
+#include "scenes/load_scene.h"
 #include "tests/unit/algorithms/plain_memory.h"
 
 namespace ml {

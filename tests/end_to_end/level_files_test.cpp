@@ -1,8 +1,10 @@
 // glTF files as a user brings them: broken ones are refused in one line, whole ones are measured.
 #include <cstring>
 
+#include "harness/gltf/gltf.h"
 #include "harness/lights/set.h"
 #include "harness/scene/scene.h"
+#include "scenes/load_scene.h"
 #include "tests/end_to_end/program.h"
 
 namespace ml::test {

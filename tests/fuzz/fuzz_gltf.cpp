@@ -6,6 +6,7 @@
 #include <span>
 
 #include "harness/base/error.h"
+#include "harness/gltf/gltf.h"
 #include "harness/scene/scene.h"
 
 namespace {

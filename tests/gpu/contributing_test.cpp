@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "harness/base/random.h"
-#include "scenes/procedural.h"
+#include "scenes/scene_registry.h"
 #include "tests/support/exactness.h"
 #include "tests/support/hand_made_scene.h"
 
@@ -50,7 +50,7 @@ TEST_F(Contributing, IsThePlanesKnownMean) {
   // straight above the picture shows nothing of the edges. The standard error of the mean over places is
   // below 3 % for this seed's 1000 lights.
   constexpr uint32_t width = 160, height = 90;
-  const Scene plane = make_plane();
+  const Scene plane = make_scene("plane");
   DeviceFrame frame(device(), plane, {}, width, height);
   const Camera camera = plane.path("above").sample(0, 1, width, height, plane.near, plane.far);
   LightSpec spec;

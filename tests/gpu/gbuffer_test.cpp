@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "harness/base/random.h"
-#include "scenes/procedural.h"
+#include "scenes/scene_registry.h"
 #include "tests/support/exactness.h"
 #include "tests/support/hand_made_scene.h"
 
@@ -53,7 +53,7 @@ glm::dvec3 ray_of(const Camera& camera, uint32_t x, uint32_t y, uint32_t width, 
 
 TEST_F(GBuffer, PositionsLieOnThePlane) {
   constexpr uint32_t width = 97, height = 61;
-  const Scene plane = make_plane();
+  const Scene plane = make_scene("plane");
   for (uint32_t index = 0; index < 3; ++index) {
     const Camera camera = plane.paths[0].sample(index, 3, width, height, plane.near, plane.far);
     View view = look(plane, camera, width, height);

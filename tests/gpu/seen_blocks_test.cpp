@@ -6,7 +6,7 @@
 #include <cstring>
 #include <set>
 
-#include "scenes/procedural.h"
+#include "scenes/scene_registry.h"
 #include "tests/support/exactness.h"
 #include "tests/support/hand_made_scene.h"
 
@@ -29,7 +29,7 @@ class SeenBlocksTest : public DeviceTest {
 };
 
 TEST_F(SeenBlocksTest, AreThoseWithAPixelThatIsLit) {
-  const Scene plane = make_plane();
+  const Scene plane = make_scene("plane");
   for (const auto& [width, height] : {std::pair{97u, 61u}, {8u, 8u}, {1u, 1u}, {640u, 3u}, {5u, 300u}}) {
     SCOPED_TRACE(testing::Message() << width << "x" << height);
     DeviceFrame frame(device(), plane, {}, width, height);
@@ -49,7 +49,7 @@ TEST_F(SeenBlocksTest, AreThoseWithAPixelThatIsLit) {
 
 TEST_F(SeenBlocksTest, OthersAreBlackWhateverWasThere) {
   constexpr uint32_t width = 64, height = 64;
-  DeviceFrame frame(device(), make_plane(), {}, width, height);
+  DeviceFrame frame(device(), make_scene("plane"), {}, width, height);
   const auto expect_black = [&] {
     for (float value : frame.read_floats(frame.targets().result)) ASSERT_EQ(value, 0.0f);
   };

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/gltf/gltf.h"
 #include "harness/scene/scene.h"
 
 namespace ml {

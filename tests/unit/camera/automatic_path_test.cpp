@@ -1,3 +1,5 @@
+#include "harness/camera/automatic_path.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,8 +8,9 @@
 
 #include "harness/base/random.h"
 #include "harness/camera/view_probe.h"
+#include "harness/gltf/gltf.h"
 #include "harness/scene/mesh_builder.h"
-#include "scenes/procedural.h"
+#include "scenes/scene_registry.h"
 #include "tests/support/depth_probe.h"
 
 namespace ml {
@@ -104,7 +107,7 @@ TEST(AutomaticPath, DoesNotStandUnderRoofsWithoutHeight) {
 }
 
 TEST(AutomaticPath, WalksOnAnOpenPlane) {
-  Scene scene = make_plane();
+  Scene scene = make_scene("plane");
   CameraPath path = automatic_path(scene, 1);
   expect_sound(path);
   for (const CameraKey& key : path.keys) EXPECT_NEAR(key.position.y, 1.7, 1e-6);
@@ -131,7 +134,7 @@ TEST(AutomaticPath, GoesAroundLevelsWithoutFloor) {
 }
 
 TEST(AutomaticPath, WorksOnTheCanyonAndDependsOnTheSeedAlone) {
-  Scene scene = make_canyon(1);
+  Scene scene = make_scene("canyon");
   RayCaster rays(scene);
   CameraPath path = automatic_path(scene, 1);
   expect_sound(path);

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "harness/base/json_text.h"
 #include "harness/config/config.h"
-#include "harness/config/json_text.h"
 #include "harness/output/result.h"
 #include "random_config.h"
 

@@ -3,8 +3,8 @@
 
 #include "bad_documents.h"
 #include "harness/base/file.h"
+#include "harness/base/json_text.h"
 #include "harness/config/config.h"
-#include "harness/config/json_text.h"
 #include "harness/config/keys.h"
 #include "harness/output/result.h"
 

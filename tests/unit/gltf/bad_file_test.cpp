@@ -6,6 +6,8 @@
 
 #include <cstdio>
 
+#include "harness/gltf/gltf.h"
+
 namespace ml {
 namespace {
 

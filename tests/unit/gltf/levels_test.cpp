@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "harness/gltf/gltf.h"
 #include "harness/scene/scene.h"
 
 namespace ml {

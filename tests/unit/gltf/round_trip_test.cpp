@@ -7,6 +7,7 @@
 #include "harness/base/error.h"
 #include "harness/base/file.h"
 #include "harness/base/random.h"
+#include "harness/gltf/gltf.h"
 #include "tests/support/gltf_test_file.h"
 
 namespace ml {

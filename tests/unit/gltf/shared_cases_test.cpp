@@ -8,6 +8,7 @@
 
 #include "harness/base/error.h"
 #include "harness/camera/view_probe.h"
+#include "harness/gltf/gltf.h"
 #include "harness/lights/set.h"
 #include "harness/scene/scene.h"
 

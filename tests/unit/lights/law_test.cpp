@@ -6,7 +6,7 @@
 
 #include "harness/base/random.h"
 #include "harness/scene/turn.h"
-#include "scenes/procedural.h"
+#include "scenes/scene_registry.h"
 #include "tests/support/light_test_level.h"
 
 namespace ml {
@@ -65,12 +65,12 @@ TEST(LightLaw, OverdrawStaysOrGrowsWithTheCount) {
 
 TEST(LightLaw, TheCanyonHasItsOwnSizeAndOtherLevelsAboutThreeLightsPerPoint) {
   Scene canyon;
-  canyon.light_defaults = kCanyonLights;
+  canyon.light_defaults = describe_scene("canyon").lights;
   EXPECT_EQ(default_base_size(canyon, Placement::volume, 32), 0.6);
   double s = default_base_size(level(), Placement::volume, 32);
   EXPECT_NEAR(0.7 * 65536 * (4 * 3.14159265 / 3) * radius_moments(32).cube * s * s * s / (40 * 20 * 10), 3,
               1e-3);
-  EXPECT_GT(default_base_size(make_plane(), Placement::volume, 32), 0);
+  EXPECT_GT(default_base_size(make_scene("plane"), Placement::volume, 32), 0);
   EXPECT_EQ(default_base_size(Scene(), Placement::volume, 32), 1);
 }
 

@@ -4,7 +4,7 @@
 
 #include "harness/base/random.h"
 #include "harness/scene/mesh_builder.h"
-#include "scenes/procedural.h"
+#include "scenes/scene_registry.h"
 
 namespace ml {
 namespace {
@@ -78,7 +78,7 @@ TEST(RayCaster, FindsWhatBruteForceFinds) {
 }
 
 TEST(RayCaster, FindsWhatBruteForceFindsInTheCanyon) {
-  expect_like_brute_force(make_canyon(1), 150, 60, 9, 30);
+  expect_like_brute_force(make_scene("canyon"), 150, 60, 9, 30);
 }
 
 TEST(RayCaster, EmptyScenesAndFlatTrianglesAreNeverHit) {

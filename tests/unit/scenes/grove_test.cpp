@@ -4,38 +4,22 @@
 
 #include "level_checks.h"
 #include "scenes/grove/parts.h"
-#include "scenes/procedural.h"
+#include "scenes/scene_registry.h"
 
 namespace ml {
 namespace {
 
 const Scene& grove() {
-  static const Scene scene = make_grove(1);
+  static const Scene scene = make_scene("grove");
   return scene;
-}
-
-TEST(Grove, IsTheSameTwiceAndAnotherWithAnotherSeed) {
-  EXPECT_EQ(hash_of(make_grove(1)), hash_of(grove()));
-  EXPECT_NE(hash_of(make_grove(2)), hash_of(grove()));
-}
-
-TEST(Grove, HasTheSizeAndTheTrianglesOfItsDescription) {
-  for (uint32_t seed : {1u, 2u, 3u}) {
-    Scene scene = make_grove(seed);
-    EXPECT_EQ(scene.bounds.size().x, 300) << seed;
-    EXPECT_EQ(scene.bounds.size().z, 300) << seed;
-    EXPECT_NEAR(scene.triangle_count(), 86000, 0.15 * 86000) << seed;
-    EXPECT_EQ(scene.near, 0.1f);
-    EXPECT_EQ(scene.far, 350);
-    EXPECT_EQ(scene.paths[0].name, "default");
-    EXPECT_EQ(scene.paths[0].duration(), 40);
-  }
 }
 
 TEST(Grove, HasTheSlatsOfItsDescription) {
   for (const Draw& draw : grove().draws) {
     if (grove().materials[draw.material].name == "picket") {
-      EXPECT_EQ(draw.index_count, 2u * kSlats * 10 * 3);
+      const double triangles_of_a_slat = 10;
+      expect_in(describe_scene("grove").wanted.number("slats"), draw.index_count / 3 / triangles_of_a_slat,
+                "slats");
       return;
     }
   }
@@ -54,10 +38,6 @@ TEST(GroveWay, IsMeasuredByLength) {
     EXPECT_LT(way.distance(here.point), 0.4) << length;
     EXPECT_NEAR(way.distance(here.beside(2)), 2, 0.2) << length;
   }
-}
-
-TEST(Grove, IsWeldedAndEveryTriangleIsSound) {
-  for (uint32_t seed : {1u, 7u}) expect_sound(make_grove(seed));
 }
 
 // Only leaves have two sides.
@@ -101,32 +81,17 @@ double deep_tiles(const Scene& scene, const RayCaster& rays, uint32_t tile, uint
 
 // Wanted by scenes.md: what makes the grove the worst case for depth bounds.
 TEST(Grove, ManyTilesHoldNearAndFarThings) {
+  const Wanted& wanted = describe_scene("grove").wanted;
   for (uint32_t seed : {1u, 2u}) {
-    Scene scene = make_grove(seed);
+    Scene scene = make_scene("grove", seed);
     RayCaster rays(scene);
-    EXPECT_GE(deep_tiles(scene, rays, 16, 100), 0.09) << seed;
-    EXPECT_GE(deep_tiles(scene, rays, 48, 40), 0.20) << seed;
+    expect_in(wanted.number("deep_tiles_of_16"), deep_tiles(scene, rays, 16, 100), "deep tiles of 16");
+    expect_in(wanted.number("deep_tiles_of_48"), deep_tiles(scene, rays, 48, 40), "deep tiles of 48");
   }
   // The measure tells scenes apart: the canyon has about 1 % of such tiles.
-  Scene canyon = make_canyon(1);
-  EXPECT_LE(deep_tiles(canyon, RayCaster(canyon), 16, 50), 0.04);
-}
-
-TEST(Grove, TheCameraIsNeverInAFenceNorCloseToOne) {
-  for (uint32_t seed : {1u, 2u, 3u}) {
-    SCOPED_TRACE(seed);
-    Scene scene = make_grove(seed);
-    expect_free_camera(scene, RayCaster(scene), 320, 2);
-  }
-}
-
-TEST(Grove, AFewLightsReachEveryPixelWhateverTheCount) {
-  RayCaster rays(grove());
-  for (uint32_t count : {8192u, 65536u}) {
-    double lights = lights_per_point(grove(), rays, count);
-    EXPECT_GE(lights, 2) << count;
-    EXPECT_LE(lights, 4) << count;
-  }
+  Scene canyon = make_scene("canyon");
+  expect_in(describe_scene("canyon").wanted.number("deep_tiles_of_16"),
+            deep_tiles(canyon, RayCaster(canyon), 16, 50), "the canyon's deep tiles of 16");
 }
 
 }  // namespace

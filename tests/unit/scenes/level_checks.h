@@ -15,9 +15,15 @@
 #include "harness/lights/set.h"
 #include "harness/scene/ray_caster.h"
 #include "harness/scene/scene.h"
+#include "scenes/wanted.h"
 #include "tests/support/depth_probe.h"
 
 namespace ml {
+
+inline void expect_in(const Range& range, double value, const std::string& what) {
+  EXPECT_TRUE(range.holds(value)) << what << " is " << value << ", wanted is [" << range.low << ", "
+                                  << range.high << "]";
+}
 
 // Of all vertices and triangles, and of the default path.
 inline uint32_t hash_of(const Scene& scene) {
@@ -83,20 +89,20 @@ inline std::vector<bool> double_sided(const Scene& scene) {
   return result;
 }
 
-// Along a path, the default one where none is named: no view of a wall's inner side, nothing within half a
+// Along a path: no view of a wall's inner side, nothing within half a
 // metre, a way that is free from each frame to the next, and something below.
-inline void expect_free_camera(const Scene& scene, const RayCaster& rays, uint32_t frames, double median,
-                               size_t path = 0) {
+inline void expect_free_camera(const Scene& scene, const RayCaster& rays, const CameraPath& path,
+                               uint32_t frames, const Range& median) {
   std::vector<bool> both_sides = double_sided(scene);
   glm::dvec3 last(0);
   for (uint32_t frame = 0; frame < frames; ++frame) {
-    Camera camera = scene.paths[path].sample(frame, frames, 64, 36, scene.near, scene.far);
+    Camera camera = path.sample(frame, frames, 64, 36, scene.near, scene.far);
     DepthProbe seen = probe(rays, camera, 32, 18);
     for (uint32_t triangle : seen.seen_from_behind) {
       EXPECT_TRUE(both_sides[triangle]) << "triangle " << triangle << " from behind, frame " << frame;
     }
     EXPECT_GT(seen.nearest, 0.5) << "frame " << frame;
-    EXPECT_GT(seen.quantile(0.5), median) << "frame " << frame;
+    expect_in(median, seen.quantile(0.5), "median depth of frame " + std::to_string(frame));
     glm::dvec3 here(camera.position);
     auto below = rays.nearest(here, {0, -1, 0});
     ASSERT_TRUE(below) << "below the ground, frame " << frame;
@@ -114,9 +120,8 @@ struct LightsSeen {
   uint32_t most = 0;
 };
 inline LightsSeen lights_seen(const Scene& scene, const RayCaster& rays, const CameraPath& path,
-                              const LightSpec& spec) {
+                              const LightSet& set) {
   constexpr uint32_t kCiFrames = 120;
-  LightSet set(spec, scene);
   LightsSeen seen;
   double lights = 0, points = 0;
   for (uint32_t frame = 0; frame < kCiFrames; frame += 4) {
@@ -135,13 +140,6 @@ inline LightsSeen lights_seen(const Scene& scene, const RayCaster& rays, const C
   }
   seen.mean = lights / points;
   return seen;
-}
-
-// Their mean number along the default path, placed as the scene's own.
-inline double lights_per_point(const Scene& scene, const RayCaster& rays, uint32_t count) {
-  LightSpec spec;
-  spec.count = count;
-  return lights_seen(scene, rays, scene.paths[0], spec).mean;
 }
 
 }  // namespace ml

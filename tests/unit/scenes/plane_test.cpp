@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "harness/lights/set.h"
-#include "scenes/procedural.h"
-#include "tests/support/depth_probe.h"
+#include "level_checks.h"
+#include "scenes/scene_registry.h"
 
 namespace ml {
 namespace {
@@ -10,10 +10,9 @@ namespace {
 constexpr double kPi = 3.141592653589793;
 
 TEST(Plane, IsTwoTrianglesThatFaceUp) {
-  Scene scene = make_plane();
+  Scene scene = make_scene("plane");
   EXPECT_EQ(scene.triangle_count(), 2u);
   EXPECT_EQ(scene.vertices.size(), 4u);
-  EXPECT_EQ(scene.bounds.size(), glm::vec3(100, 0, 100));
   for (const Vertex& v : scene.vertices) EXPECT_EQ(v.normal, glm::vec3(0, 1, 0));
   RayCaster rays(scene);
   auto hit = rays.nearest({3, 5, 7}, {0, -1, 0});
@@ -22,15 +21,15 @@ TEST(Plane, IsTwoTrianglesThatFaceUp) {
 }
 
 TEST(Plane, LightsAreEqualAndAtOneHeightWhateverThePlacement) {
-  Scene scene = make_plane();
+  Scene scene = make_scene("plane");
   for (Placement placement : {Placement::volume, Placement::triangle, Placement::area}) {
     LightSpec spec;
     spec.placement = placement;
     spec.count = 1000;
     LightSet set(spec, scene);
     for (const Light& light : set.base()) {
-      EXPECT_EQ(light.radius, 4);
-      EXPECT_EQ(light.position.y, 2);
+      EXPECT_EQ(light.radius, scene.light_defaults.radius);
+      EXPECT_EQ(light.position.y, scene.light_defaults.height);
       EXPECT_LE(std::abs(light.position.x), 50);
       EXPECT_LE(std::abs(light.position.z), 50);
     }
@@ -47,7 +46,7 @@ TEST(Plane, LightsAreEqualAndAtOneHeightWhateverThePlacement) {
 // N pi (r^2 - h^2) / 10^4 lights reach a point away from the edges; the mean over seeds and points comes near
 // to it.
 TEST(Plane, LightsPerPixelHaveTheClosedForm) {
-  Scene scene = make_plane();
+  Scene scene = make_scene("plane");
   for (auto [count, radius, height] :
        {std::tuple{1000u, 4.0f, 2.0f}, {5000u, 2.0f, 0.5f}, {300u, 9.0f, 8.0f}}) {
     double sum = 0, points = 0;
@@ -75,18 +74,18 @@ TEST(Plane, LightsPerPixelHaveTheClosedForm) {
 }
 
 TEST(Plane, ThePathAboveSeesNothingNearAnEdge) {
-  Scene scene = make_plane();
+  Scene scene = make_scene("plane");
   RayCaster rays(scene);
   DepthProbe seen = probe(rays, scene.path("above").sample(0, 1, 160, 90, scene.near, scene.far), 160, 90);
   EXPECT_EQ(seen.points.size(), 160u * 90);
   for (const glm::dvec3& point : seen.points) {
-    EXPECT_LE(std::abs(point.x), 42);
-    EXPECT_LE(std::abs(point.z), 42);
+    expect_in(describe_scene("plane").wanted.number("seen_from_above"), std::abs(point.x), "x");
+    expect_in(describe_scene("plane").wanted.number("seen_from_above"), std::abs(point.z), "z");
   }
 }
 
 TEST(Plane, TheDefaultPathStaysAboveTheGround) {
-  Scene scene = make_plane();
+  Scene scene = make_scene("plane");
   RayCaster rays(scene);
   for (uint32_t frame = 0; frame < 120; ++frame) {
     DepthProbe seen = probe(rays, scene.paths[0].sample(frame, 120, 160, 90, scene.near, scene.far));

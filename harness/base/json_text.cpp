@@ -1,4 +1,4 @@
-#include "harness/config/json_text.h"
+#include "harness/base/json_text.h"
 
 #include <cctype>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "harness/config/node.h"
+#include "harness/base/json_node.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "harness/base/error.h"
-#include "harness/config/json_text.h"
+#include "harness/base/json_text.h"
 
 namespace ml {
 
