@@ -5,7 +5,7 @@
 #include <string>
 
 #include "algorithms/froxels/reference_lists.h"
-#include "algorithms/trees/reference_forest.h"
+#include "algorithms/trees/reference_trees.h"
 #include "hybrid_settings.h"
 #include "prepare_inputs.h"
 
@@ -41,7 +41,7 @@ void upload(UploadMemory& memory, uint32_t slot, const std::vector<Element>& fro
 void scalar(benchmark::State& state, const std::string& stage) {
   auto input = view_input(static_cast<uint32_t>(state.range(0)), 1);
   ReferenceLists lists;
-  ReferenceForest forest;
+  ReferenceTrees cell_trees;
   PlainMemory memory;
   Spans spans;
   for (auto _ : state) {
@@ -49,13 +49,13 @@ void scalar(benchmark::State& state, const std::string& stage) {
     lists.build(input->frame, hybrid_froxels(), spans);
     {
       auto span = spans.span("build");
-      forest.build(lists, {});
+      cell_trees.build(lists, {});
     }
     {
       auto span = spans.span("upload");
-      upload(memory, 0, forest.cells());
-      upload(memory, 1, forest.nodes());
-      upload(memory, 2, forest.lights());
+      upload(memory, 0, cell_trees.cells());
+      upload(memory, 1, cell_trees.nodes());
+      upload(memory, 2, cell_trees.lights());
     }
     state.SetIterationTime(seconds_of(spans, stage));
   }

@@ -6,7 +6,7 @@
 #include <initializer_list>
 
 #include "algorithms/froxels/reference_lists.h"
-#include "algorithms/trees/reference_forest.h"
+#include "algorithms/trees/reference_trees.h"
 #include "hybrid_settings.h"
 #include "prepare_inputs.h"
 
@@ -25,7 +25,7 @@ void print(const char* form, std::initializer_list<const char*> stages, bool war
 void hybrid() {
   auto input = view_input(lights, 1);
   ReferenceLists lists;
-  ReferenceForest forest;
+  ReferenceTrees cell_trees;
   TreePrepare prepare("hybrid", hybrid_froxels(), {});
   PlainMemory memory;
   Spans spans;
@@ -34,7 +34,7 @@ void hybrid() {
     print("scalar", {"cull", "sort", "bin"}, warm_up);
     {
       auto span = spans.span("build");
-      forest.build(lists, {});
+      cell_trees.build(lists, {});
     }
     print("scalar", {"build"}, warm_up);
     prepare.prepare(input->frame, memory, spans);
@@ -83,8 +83,8 @@ void bounds() {
   }
 }
 
-// Few lights that cover dozens of froxels each, so that lists are swept.
-void sweep() {
+// Few lights that cover dozens of froxels each, so that lists are made row by row.
+void list_rows() {
   Camera camera;
   camera.projection = Projection::perspective(1.0471976f, static_cast<float>(width) / height, 0.1f, 500);
   Random random(1);
@@ -106,7 +106,7 @@ void sweep() {
     lists.build(input.frame, settings, memory, 0, spans);
     print("fast", {"few_cull", "sweep"}, warm_up);
   }
-  if (!lists.swept()) throw std::logic_error("the lists were not swept");
+  if (!lists.built_by_rows()) throw std::logic_error("the lists were not made row by row");
 }
 
 }  // namespace
@@ -114,5 +114,5 @@ void sweep() {
 int main() {
   hybrid();
   bounds();
-  sweep();
+  list_rows();
 }

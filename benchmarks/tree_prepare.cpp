@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "algorithms/froxels/reference_lists.h"
-#include "algorithms/trees/reference_forest.h"
+#include "algorithms/trees/reference_trees.h"
 #include "prepare_inputs.h"
 
 namespace {
@@ -21,8 +21,8 @@ FroxelSettings froxels(bool tiles) {
   return settings;
 }
 
-ForestSettings trees(bool tiles) {
-  ForestSettings settings;
+TreeSettings trees(bool tiles) {
+  TreeSettings settings;
   if (tiles) settings.threshold = std::numeric_limits<float>::infinity();
   return settings;
 }
@@ -30,12 +30,12 @@ ForestSettings trees(bool tiles) {
 void plain_scalar(benchmark::State& state, MakeInput make, bool tiles) {
   auto input = make(static_cast<uint32_t>(state.range(0)), 1);
   ReferenceLists lists;
-  ReferenceForest forest;
+  ReferenceTrees cell_trees;
   std::vector<gpu_data::TreeNode> nodes;
   const auto frame = [&] {
     lists.build(input->frame, froxels(tiles));
-    forest.build(lists, trees(tiles));
-    nodes = forest.nodes();  // the upload
+    cell_trees.build(lists, trees(tiles));
+    nodes = cell_trees.nodes();  // the upload
     benchmark::DoNotOptimize(nodes.data());
   };
   frame();  // on both sides the first frame, which takes memory, does not count
@@ -44,7 +44,7 @@ void plain_scalar(benchmark::State& state, MakeInput make, bool tiles) {
 }
 
 void prepare_frames(benchmark::State& state, MakeInput make, unsigned threads, const FroxelSettings& froxels,
-                    const ForestSettings& trees) {
+                    const TreeSettings& trees) {
   auto input = make(static_cast<uint32_t>(state.range(0)), threads);
   TreePrepare prepare("hybrid", froxels, trees);
   PlainMemory memory;
@@ -62,7 +62,7 @@ void fast(benchmark::State& state, MakeInput make, unsigned threads, bool tiles)
 
 // The hybrid where no cell becomes a tree: what is left of its growth.
 void lists(benchmark::State& state, MakeInput make) {
-  ForestSettings settings = trees(false);
+  TreeSettings settings = trees(false);
   settings.threshold = 0;
   prepare_frames(state, make, 1, froxels(false), settings);
 }

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "algorithms/froxels/reference_lists.h"
-#include "algorithms/trees/reference_forest.h"
+#include "algorithms/trees/reference_trees.h"
 #include "hybrid_settings.h"
 #include "prepare_inputs.h"
 
@@ -25,11 +25,11 @@ constexpr const char* plain_scalar = "scalar";
 // One way of preparing frames, and the least time of each stage.
 class Row {
  public:
-  Row(std::string name, bool trees, const ForestSettings& forest)
+  Row(std::string name, bool trees, const TreeSettings& cell_trees)
       : name_(std::move(name)),
         trees_(trees),
-        forest_settings_(forest),
-        prepare_("hybrid", froxels(), forest) {
+        tree_settings_(cell_trees),
+        prepare_("hybrid", froxels(), cell_trees) {
     least_.fill(std::numeric_limits<double>::infinity());
   }
 
@@ -66,16 +66,16 @@ class Row {
     reference_lists_.build(frame, froxels(), spans);
     if (!trees_) return;
     auto span = spans.span("build");
-    reference_forest_.build(reference_lists_, forest_settings_);
+    reference_trees_.build(reference_lists_, tree_settings_);
   }
 
   std::string name_;
   bool trees_;
-  ForestSettings forest_settings_;
+  TreeSettings tree_settings_;
   TreePrepare prepare_;
   FroxelLists lists_{"clustered"};
   ReferenceLists reference_lists_;
-  ReferenceForest reference_forest_;
+  ReferenceTrees reference_trees_;
   PlainMemory memory_;
   std::array<double, stages.size()> least_{};
 };
@@ -83,8 +83,8 @@ class Row {
 void print_table(const char* title, MakeInput make, uint32_t lights, bool trees) {
   auto input = make(lights, 1);
   std::vector<Row> rows;
-  for (const std::string& target : simd::target_names()) rows.emplace_back(target, trees, ForestSettings{});
-  rows.emplace_back(plain_scalar, trees, ForestSettings{});
+  for (const std::string& target : simd::target_names()) rows.emplace_back(target, trees, TreeSettings{});
+  rows.emplace_back(plain_scalar, trees, TreeSettings{});
   // The first frame takes memory, and each row finds the caches full of what the one before it left there.
   for (int round = 0; round < 21; ++round)
     for (Row& row : rows)

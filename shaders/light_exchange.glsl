@@ -9,7 +9,7 @@ vec3 of_lane(vec3 value, uint lane) {
   return vec3(subgroupShuffle(value.x, lane), subgroupShuffle(value.y, lane), subgroupShuffle(value.z, lane));
 }
 
-LightCore light_of_lane(LightCore own, uint lane) {
+LightCore broadcast_light(LightCore own, uint lane) {
   LightCore light;
   light.position = of_lane(own.position, lane);
   light.radius = subgroupShuffle(own.radius, lane);
@@ -22,7 +22,7 @@ LightCore light_of_lane(LightCore own, uint lane) {
 // frame of omni lights there are no more.
 LightExtra extra_ahead(LightCore light) { return extra_at(has_extra(light) ? light.id_shape & ML_LIGHT_ID_MASK : 0u); }
 
-LightExtra extra_of_lane(LightExtra own, uint lane) {
+LightExtra broadcast_extra(LightExtra own, uint lane) {
   LightExtra extra;
   extra.direction = of_lane(own.direction, lane);
   extra.half_length = subgroupShuffle(own.half_length, lane);

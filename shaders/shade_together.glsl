@@ -11,9 +11,9 @@ const bool extras_go_along = any_extras && small_subgroup;
 // The light that a lane fetched, seen from the point.
 bool sample_of_lane(SurfacePoint point, LightCore own, LightExtra own_extra, uint lane, bool wanted, out LightCore data,
                     out LightSample from) {
-  data = light_of_lane(own, lane);
+  data = broadcast_light(own, lane);
   if (!extras_go_along) return wanted && light_sample(point, data, from);
-  const LightExtra extra = extra_of_lane(own_extra, lane);
+  const LightExtra extra = broadcast_extra(own_extra, lane);
   return wanted && light_sample(point, data, extra, from);
 }
 
@@ -87,8 +87,8 @@ void shade_runs(SurfacePoint point, LightCursor cursor, uint runs, bool here, in
       contributing = test_batch(point, own, own_extra, batch, wanted);
       next += batch;
       left -= batch;
-    } while (TEST_AHEAD && !any_of_all(contributing != 0u) && (runs | left) != 0u);
-    if (any_of_all(contributing != 0u)) {
+    } while (TEST_AHEAD && !subgroup_any(contributing != 0u) && (runs | left) != 0u);
+    if (subgroup_any(contributing != 0u)) {
       do {
         add_lane(point, own, own_extra, contributing, sum);
         if (LONG_LISTS) {
@@ -100,7 +100,7 @@ void shade_runs(SurfacePoint point, LightCursor cursor, uint runs, bool here, in
           add_lane(point, own, own_extra, contributing, sum);
           add_lane(point, own, own_extra, contributing, sum);
         }
-      } while (any_of_all(contributing != 0u));
+      } while (subgroup_any(contributing != 0u));
     }
   } while ((runs | left) != 0u);
 }
@@ -111,7 +111,7 @@ void shade_runs(SurfacePoint point, LightCursor cursor, uint runs, bool here, in
 void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
   const uint none = 0xffffffffu;
   uint left = lit ? light_cell(point) : none;
-  uint cell = lowest_of_all(left);
+  uint cell = subgroup_min(left);
   if (cell == none) return;
   do {
     const bool here = left == cell;
@@ -124,12 +124,12 @@ void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
         runs = light_next_runs(cursor, here);
       } while (runs != 0u);
     }
-    cell = lowest_of_all(left);
+    cell = subgroup_min(left);
   } while (cell != none);
 }
 
 bool in_one_cell(SurfacePoint point, bool lit) {
-  const uint cell = lit ? light_cell(point) : 0xffffffffu, lowest = lowest_of_all(cell);
+  const uint cell = lit ? light_cell(point) : 0xffffffffu, lowest = subgroup_min(cell);
   return subgroupAll(!lit || cell == lowest);
 }
 

@@ -12,31 +12,31 @@ const bool small_subgroup = SUBGROUP_LANES != 0u && SUBGROUP_LANES <= 8u;
 uint subgroup_lanes() { return SUBGROUP_LANES != 0u ? SUBGROUP_LANES : gl_SubgroupSize; }
 
 // The value of the lane whose number differs in one bit.
-uint across(uint value, uint bit) { return subgroupShuffle(value, gl_SubgroupInvocationID ^ bit); }
+uint subgroup_shuffle_xor(uint value, uint bit) { return subgroupShuffle(value, gl_SubgroupInvocationID ^ bit); }
 
-uint lowest_of_all(uint value) {
+uint subgroup_min(uint value) {
   if (!small_subgroup) return subgroupMin(value);
-  if (SUBGROUP_LANES > 1u) value = min(value, across(value, 1u));
-  if (SUBGROUP_LANES > 2u) value = min(value, across(value, 2u));
-  if (SUBGROUP_LANES > 4u) value = min(value, across(value, 4u));
+  if (SUBGROUP_LANES > 1u) value = min(value, subgroup_shuffle_xor(value, 1u));
+  if (SUBGROUP_LANES > 2u) value = min(value, subgroup_shuffle_xor(value, 2u));
+  if (SUBGROUP_LANES > 4u) value = min(value, subgroup_shuffle_xor(value, 4u));
   return value;
 }
 
-uint bits_of_all(uint value) {
+uint subgroup_or(uint value) {
   if (!small_subgroup) return subgroupOr(value);
-  if (SUBGROUP_LANES > 1u) value |= across(value, 1u);
-  if (SUBGROUP_LANES > 2u) value |= across(value, 2u);
-  if (SUBGROUP_LANES > 4u) value |= across(value, 4u);
+  if (SUBGROUP_LANES > 1u) value |= subgroup_shuffle_xor(value, 1u);
+  if (SUBGROUP_LANES > 2u) value |= subgroup_shuffle_xor(value, 2u);
+  if (SUBGROUP_LANES > 4u) value |= subgroup_shuffle_xor(value, 4u);
   return value;
 }
 
-bool any_of_all(bool value) {
-  return small_subgroup ? bits_of_all(value ? 1u : 0u) != 0u : subgroupAny(value);
+bool subgroup_any(bool value) {
+  return small_subgroup ? subgroup_or(value ? 1u : 0u) != 0u : subgroupAny(value);
 }
 
 // A bit for each of the first 32 lanes where it holds.
-uint lanes_where(bool value) {
-  return small_subgroup ? bits_of_all(value ? 1u << gl_SubgroupInvocationID : 0u) : subgroupBallot(value).x;
+uint subgroup_ballot(bool value) {
+  return small_subgroup ? subgroup_or(value ? 1u << gl_SubgroupInvocationID : 0u) : subgroupBallot(value).x;
 }
 
 #endif

@@ -18,7 +18,7 @@ layout(scalar, binding = 17) writeonly buffer Bounds { ScreenBounds bounds[]; };
 const float none = 3e38;
 const bool any_hulls = EFFECT_SPOTS || EFFECT_CAPSULES || EFFECT_WEDGES || EFFECT_BOXES;
 const float widen_pixels = 1.0 / 256.0;  // as the froxel bounds
-const uint most_corners = 16u;  // of a clipped face: 4 and one for each plane, and room for what rounding bends
+const uint max_corners = 16u;  // of a clipped face: 4 and one for each plane, and room for what rounding bends
 
 // Window coordinates (slopes or metres) and depths.
 struct WindowBounds {
@@ -58,8 +58,8 @@ uint planes_beyond(vec3 point) {
 }
 
 void add_face(LightHull hull, uvec4 corners, inout WindowBounds window) {
-  vec3 face[most_corners];
-  vec3 kept[most_corners];
+  vec3 face[max_corners];
+  vec3 kept[max_corners];
   uint crossed = 0u, missed = 31u;
   for (uint i = 0u; i < 4u; ++i) {
     face[i] = hull_corner(hull, corners[i]);
@@ -77,9 +77,9 @@ void add_face(LightHull hull, uvec4 corners, inout WindowBounds window) {
     for (uint i = 0u; i < count; ++i) {
       const vec3 to = face[i];
       const float to_inside = dot(plane.xyz, to) + plane.w;
-      if ((from_inside >= 0.0) != (to_inside >= 0.0) && left < most_corners)
+      if ((from_inside >= 0.0) != (to_inside >= 0.0) && left < max_corners)
         kept[left++] = mix(from, to, from_inside / (from_inside - to_inside));
-      if (to_inside >= 0.0 && left < most_corners) kept[left++] = to;
+      if (to_inside >= 0.0 && left < max_corners) kept[left++] = to;
       from = to;
       from_inside = to_inside;
     }

@@ -40,7 +40,7 @@ class FinePruned final : public Algorithm {
     lights_.sort(frame, settings_.packed ? ML_PACKED_VISIBLE : ML_LIGHT_ID_MASK, spans);
     auto span = spans.span("upload");
     const gpu_data::VisibleHeader& header = lights_.header();
-    entries_ = settings_.packed ? 0 : lights_.most_entries(frame);
+    entries_ = settings_.packed ? 0 : lights_.max_entries_of_tiles(frame);
     longest_walk_ = settings_.packed ? 2 * ML_PACKED_LIGHTS : lights_.most_in_a_tile();
     // Where the device may have no room for all lists some tiles walk all lights in view.
     if (entries_ > memory.limit() / 8) longest_walk_ = header.count;

@@ -7,13 +7,13 @@
 // In a flow that all threads of the workgroup take, as add_depths().
 #define SET_BITS(word, bits)                                                 \
   {                                                                          \
-    const uint of_subgroup = bits_of_all(bits);                              \
-    if (speaks_for_subgroup() && of_subgroup != 0u) atomicOr(word, of_subgroup); \
+    const uint of_subgroup = subgroup_or(bits);                              \
+    if (subgroup_elect() && of_subgroup != 0u) atomicOr(word, of_subgroup); \
   }
 
 shared uint depth_low, depth_high;  // bits of depths, which are positive and so in order
 
-bool speaks_for_subgroup() { return small_subgroup ? gl_SubgroupInvocationID == 0u : subgroupElect(); }
+bool subgroup_elect() { return small_subgroup ? gl_SubgroupInvocationID == 0u : subgroupElect(); }
 
 // Before the first add_depths(), and a barrier between.
 void clear_depths() {
@@ -23,9 +23,9 @@ void clear_depths() {
 }
 
 void add_depths(uint low, uint high) {
-  low = lowest_of_all(low);
-  high = ~lowest_of_all(~high);
-  if (!speaks_for_subgroup()) return;
+  low = subgroup_min(low);
+  high = ~subgroup_min(~high);
+  if (!subgroup_elect()) return;
   atomicMin(depth_low, low);
   atomicMax(depth_high, high);
 }

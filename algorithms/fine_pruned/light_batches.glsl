@@ -22,8 +22,8 @@ ScreenBounds bounds_of(uint light) {
   return ScreenBounds(words.x, words.y, uintBitsToFloat(words.z), uintBitsToFloat(words.w));
 }
 
-const uint most_rounds = 8u;  // lights that a thread tests in one batch
-const uint batch = most_rounds * ML_PRUNED_GROUP, batch_words = batch / 32u;
+const uint max_rounds = 8u;  // lights that a thread tests in one batch
+const uint batch = max_rounds * ML_PRUNED_GROUP, batch_words = batch / 32u;
 
 // Which lights of a batch passed; three take turns, so that a barrier a batch is enough.
 shared uint passed[3u * batch_words];
@@ -60,7 +60,7 @@ bool overlaps(ScreenBounds light, ScreenBounds place) {
 
 // Rounds of the batch that begins at candidate `first` in which there are candidates before `count`.
 uint rounds_of(uint first, uint count) {
-  return min((count - first + ML_PRUNED_GROUP - 1u) / ML_PRUNED_GROUP, most_rounds);
+  return min((count - first + ML_PRUNED_GROUP - 1u) / ML_PRUNED_GROUP, max_rounds);
 }
 
 // Those of the batch of candidates from `first` on, and before `count`, that overlap: as bits of passed[field ...].

@@ -15,7 +15,7 @@ namespace {
 enum Mode : uint32_t { mode_count, mode_lists, mode_packed };
 
 // Of all regions' lists: each has room for all lights in view.
-constexpr uint64_t most_region_bytes = uint64_t{32} << 20;
+constexpr uint64_t max_region_bytes = uint64_t{32} << 20;
 
 gpu::Constants with(gpu::Constants shared, const gpu::Constants& own) {
   shared.insert(shared.end(), own.begin(), own.end());
@@ -61,7 +61,7 @@ ListPasses::TilePrograms& ListPasses::programs(bool regions) {
 }
 
 void ListPasses::lay_out_regions(uint32_t columns, uint32_t rows, uint32_t visible) {
-  const uint64_t most = std::min<uint64_t>(device_.limits().storage_buffer_range, most_region_bytes);
+  const uint64_t most = std::min<uint64_t>(device_.limits().storage_buffer_range, max_region_bytes);
   region_shift_ = 3;
   const auto along = [this](uint32_t tiles) { return ((tiles - 1) >> region_shift_) + 1; };
   while (uint64_t{along(columns)} * along(rows) * (visible + 1) * 4 > most &&

@@ -66,8 +66,8 @@ uvec2 prune_by_type(uint begin, uint count) {
 }
 
 void test_of_lane(LightCore own, LightExtra own_extra, uint lane, uint lanes, uint first, inout uvec2 mask) {
-  const LightCore light = light_of_lane(own, min(lane, lanes - 1u));
-  extra_at_hand = extra_of_lane(own_extra, min(lane, lanes - 1u));
+  const LightCore light = broadcast_light(own, min(lane, lanes - 1u));
+  extra_at_hand = broadcast_extra(own_extra, min(lane, lanes - 1u));
   if (lane < lanes && in_volume(points, light)) set_bit(first + lane, mask);
 }
 
@@ -76,7 +76,7 @@ void test_of_lane(LightCore own, LightExtra own_extra, uint lane, uint lanes, ui
 // one that tests for each type.
 uvec2 prune_together(uint begin, uint count) {
   uvec2 mask = uvec2(0u);
-  if (!any_of_all(any(points.lit))) return mask;
+  if (!subgroup_any(any(points.lit))) return mask;
   for (uint first = 0u; first < count; first += SUBGROUP_LANES) {
     const LightCore own = light_at(visible_lights[coarse[begin + min(first + gl_SubgroupInvocationID, count - 1u)]]);
     LightExtra own_extra;

@@ -55,7 +55,7 @@ void VisibleLightList::sort(const FrameInput& frame, uint32_t most, Spans& spans
   }
 }
 
-uint64_t VisibleLightList::most_entries(const FrameInput& frame) {
+uint64_t VisibleLightList::max_entries_of_tiles(const FrameInput& frame) {
   const FroxelGrid grid = tile_grid(frame.view);
   columns_ = grid.columns;
   rows_ = grid.rows;

@@ -24,8 +24,8 @@ class VisibleLightList {
 
   // Entries that the lists of all tiles have at most: the tiles of every ball's box. Not less than what the
   // device finds but for rounding at the edge of a tile.
-  uint64_t most_entries(const FrameInput& frame);
-  // The most of them in one tile, after most_entries().
+  uint64_t max_entries_of_tiles(const FrameInput& frame);
+  // The most of them in one tile, after max_entries_of_tiles().
   uint32_t most_in_a_tile();
 
  private:

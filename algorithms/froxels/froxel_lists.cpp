@@ -128,15 +128,15 @@ gpu_data::FroxelGridData FroxelLists::grid_data() const {
   return data;
 }
 
-bool FroxelLists::sweep(const FrameInput& frame, bool by_depth, uint64_t max_entries, UploadMemory* memory,
-                        uint32_t slot) {
+bool FroxelLists::list_rows(const FrameInput& frame, bool by_depth, uint64_t max_entries,
+                            UploadMemory* memory, uint32_t slot) {
   const uint64_t pairs = parts_[0].froxels;
   const size_t light_end = frame.lights.count();
-  if (!sweep_is_cheaper(boxes_.data(), in_frustum_, pairs, grid_, light_end)) return false;
+  if (!rows_are_cheaper(boxes_.data(), in_frustum_, pairs, grid_, light_end)) return false;
   if (pairs > max_entries) too_many(pairs, max_entries);
   begin_list(pairs, memory, slot);
-  longest_ = simd::sweep(boxes_.data(), by_depth ? order_.places().data() : nullptr, in_frustum_, grid_,
-                         light_end, sweep_memory_, offsets_.data(), list_.data());
+  longest_ = simd::list_rows(boxes_.data(), by_depth ? order_.places().data() : nullptr, in_frustum_, grid_,
+                             light_end, row_memory_, offsets_.data(), list_.data());
   return true;
 }
 
@@ -218,9 +218,9 @@ void FroxelLists::build(const FrameInput& frame, const FroxelSettings& settings,
     planes_.build(constants);
   reserve_padded(boxes_, frame.lights.count());
   threads.for_each(runs_.size(), [&](size_t p) { bound(frame.lights, p, by_depth, constants); });
-  swept_ = runs_.size() == 1 && !settings.refinement && !settings.ball_test &&
-           sweep(frame, by_depth, max_entries, memory, slot);
-  if (swept_) return;
+  by_rows_ = runs_.size() == 1 && !settings.refinement && !settings.ball_test &&
+             list_rows(frame, by_depth, max_entries, memory, slot);
+  if (by_rows_) return;
   threads.for_each(runs_.size(), [&](size_t p) { emit(p, settings, constants, max_entries); });
   uint64_t entries = 0;
   for (size_t p = 0; p < runs_.size(); ++p) entries += parts_[p].pairs.count;

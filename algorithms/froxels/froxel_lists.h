@@ -11,7 +11,7 @@
 #include "algorithms/froxels/binning.h"
 #include "algorithms/froxels/depth_order.h"
 #include "algorithms/froxels/refinement.h"
-#include "algorithms/froxels/swept_lists.h"
+#include "algorithms/froxels/row_lists.h"
 
 namespace ml {
 
@@ -71,8 +71,8 @@ class FroxelLists {
   // The most entries of one froxel.
   uint32_t longest() const { return longest_; }
 
-  // Whether the lists came from sweeping over rows (swept_lists.h) rather than from pairs.
-  bool swept() const { return swept_; }
+  // Whether the lists came from sweeping over rows (row_lists.h) rather than from pairs.
+  bool built_by_rows() const { return by_rows_; }
 
   // Order by depth only: the depths (m) that each light in a list reaches, by light index.
   std::span<const DepthReach> reach_of_light() const { return reaches_; }
@@ -93,8 +93,8 @@ class FroxelLists {
   void bound(const FrameLights& lights, size_t p, bool by_depth, const BoundsConstants& constants);
   void emit(size_t p, const FroxelSettings& settings, const BoundsConstants& constants, uint64_t max_entries);
   // The lists of one run of lights without pairs; false: not worth it.
-  bool sweep(const FrameInput& frame, bool by_depth, uint64_t max_entries, UploadMemory* memory,
-             uint32_t slot);
+  bool list_rows(const FrameInput& frame, bool by_depth, uint64_t max_entries, UploadMemory* memory,
+                 uint32_t slot);
   // Counting sort of all pairs into the lists.
   void scatter(Threads& threads);
   template <bool with_reaches>
@@ -119,14 +119,14 @@ class FroxelLists {
   VisibleLights visible_;
   std::vector<DepthReach> reaches_, entry_reaches_;
   DepthOrder order_;
-  SweepMemory sweep_memory_;
+  RowMemory row_memory_;
   std::vector<LightBox> boxes_;  // by place in visible_
   std::vector<uint32_t> offsets_, own_list_;
   std::span<uint32_t> list_;  // own_list_ or upload memory
   size_t entries_ = 0;
   uint32_t longest_ = 0;
   uint64_t in_frustum_ = 0;
-  bool swept_ = false, chords_ = false, narrow_ = false;
+  bool by_rows_ = false, chords_ = false, narrow_ = false;
 };
 
 }  // namespace ml

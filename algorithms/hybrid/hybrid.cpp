@@ -16,8 +16,8 @@ FroxelSettings froxels(const Parameters& p) {
   return settings;
 }
 
-ForestSettings forest_settings(const Parameters& p) {
-  ForestSettings settings = tree_settings(p);
+TreeSettings cell_tree_settings(const Parameters& p) {
+  TreeSettings settings = tree_settings(p);
   settings.threshold = static_cast<float>(p.real("threshold"));
   settings.clipped = p.choice("heuristic") == "clipped";
   settings.list_lights = static_cast<uint32_t>(p.integer("list_lights"));
@@ -27,7 +27,7 @@ ForestSettings forest_settings(const Parameters& p) {
 class Hybrid final : public TreeAlgorithm {
  public:
   explicit Hybrid(const Parameters& p)
-      : TreeAlgorithm("hybrid", froxels(p), forest_settings(p), p),
+      : TreeAlgorithm("hybrid", froxels(p), cell_tree_settings(p), p),
         list_case_(p.boolean("list_case")),
         shared_tree_(p.boolean("shared_tree")) {}
   ShadeShaders shade_shaders() const override {

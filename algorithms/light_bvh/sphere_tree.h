@@ -17,14 +17,14 @@ namespace ml {
 
 class SphereTree {
  public:
-  static constexpr uint32_t most_children = 8, none = 0xffffffffu;
+  static constexpr uint32_t max_children = 8, none = 0xffffffffu;
 
   struct Node {
     VolumeBox box;
     uint32_t parent = none;
     uint32_t light = none;  // leaf
     uint32_t children = 0;
-    std::array<uint32_t, most_children> child{};
+    std::array<uint32_t, max_children> child{};
   };
 
   explicit SphereTree(uint32_t branching) : branching_(branching) {}

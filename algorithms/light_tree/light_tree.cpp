@@ -21,8 +21,8 @@ FroxelSettings tiles(const Parameters& p) {
   return settings;
 }
 
-ForestSettings always_trees(const Parameters& p) {
-  ForestSettings settings = tree_settings(p);
+TreeSettings always_trees(const Parameters& p) {
+  TreeSettings settings = tree_settings(p);
   settings.threshold = std::numeric_limits<float>::infinity();
   return settings;
 }

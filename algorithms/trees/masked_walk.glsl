@@ -5,7 +5,7 @@
 #ifndef ML_MASKED_WALK_GLSL
 #define ML_MASKED_WALK_GLSL
 
-// Place of a node after the root of a full binary tree that is stored depth first (algorithms/trees/forest_chunk.h).
+// Place of a node after the root of a full binary tree that is stored depth first (algorithms/trees/tree_chunk.h).
 uint depth_first_place(uint height, uint level, uint index) {
   return level + (index << (height - level + 1u)) - uint(bitCount(index));
 }
@@ -26,7 +26,7 @@ uint nodes_hit(LightCursor cursor, uint height, uint level, uint index, uint cou
       high = node.high;
     }
 #ifdef COUNTING
-    const uint existing = uint(bitCount(lanes_where(exists)));
+    const uint existing = uint(bitCount(subgroup_ballot(exists)));
     if (asks) COUNT_NODES(existing);
 #endif
 #define NODE_OF_LANE(other) \
@@ -57,7 +57,7 @@ uvec2 merged_leaves(LightCursor cursor, uint height, bool here) {
   const uint upper = nodes_hit(cursor, height, level, 0u, 1u << level, here);
   // A root that is a leaf has nothing below.
   uvec2 mask = uvec2(below == 0u ? upper : 0u, 0u);
-  uint left = below == 0u ? 0u : bits_of_all(upper);
+  uint left = below == 0u ? 0u : subgroup_or(upper);
   if (left != 0u) {
     do {
       const uint node = uint(findLSB(left));
@@ -70,7 +70,7 @@ uvec2 merged_leaves(LightCursor cursor, uint height, bool here) {
       }
     } while (left != 0u);
   }
-  return uvec2(bits_of_all(mask.x), bits_of_all(mask.y));
+  return uvec2(subgroup_or(mask.x), subgroup_or(mask.y));
 }
 
 // Goes on to the next leaves that pixels of the subgroup hit, or behind the tree. A tree of more leaves is one subtree
@@ -83,7 +83,7 @@ uint masked_runs(inout LightCursor cursor, bool here) {
       const TreeNode root = tree_node(cursor.node);
       const uint skip = tree_skip(root), height = uint(findMSB(skip + 1u)) - 1u;
       const bool large = height >= 6u;
-      const bool hit = any_of_all(!large || (here && root.low <= cursor.depth && cursor.depth <= root.high));
+      const bool hit = subgroup_any(!large || (here && root.low <= cursor.depth && cursor.depth <= root.high));
       if (here && large) COUNT_NODES(1u);
       const uvec2 mask = merged_leaves(cursor, hit ? height : 7u, here);
       cursor.leaves = mask.x;

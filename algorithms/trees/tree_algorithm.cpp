@@ -5,7 +5,7 @@
 namespace ml {
 
 TreeAlgorithm::TreeAlgorithm(const std::string& name, const FroxelSettings& froxels,
-                             const ForestSettings& trees, const Parameters& parameters)
+                             const TreeSettings& trees, const Parameters& parameters)
     : trees_(name, froxels, trees),
       together_(walk_together(parameters)),
       masked_(parameters.choice("walk") == "masked"),

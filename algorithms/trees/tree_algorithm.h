@@ -8,7 +8,7 @@ namespace ml {
 
 class TreeAlgorithm : public Algorithm {
  public:
-  TreeAlgorithm(const std::string& name, const FroxelSettings& froxels, const ForestSettings& trees,
+  TreeAlgorithm(const std::string& name, const FroxelSettings& froxels, const TreeSettings& trees,
                 const Parameters& parameters);
 
   void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans) final {

@@ -21,18 +21,18 @@ TreeNode* map_nodes(UploadMemory& memory, uint64_t nodes) {
 
 // Where a single thread can build the nodes so that none has to be copied, or null. How many they will be is
 // not known yet, so there must be room for the most.
-TreeNode* nodes_in_place(UploadMemory& memory, const FroxelLists& lists, const ForestSettings& trees,
+TreeNode* nodes_in_place(UploadMemory& memory, const FroxelLists& lists, const TreeSettings& trees,
                          const Threads& threads) {
   if (threads.count() > 1) return nullptr;
   map_nodes(memory, 0);
-  const uint64_t room = Forest::room(lists, trees);
+  const uint64_t room = CellTrees::capacity(lists, trees);
   if (!memory.cached(nodes_slot) || room * sizeof(TreeNode) > memory.limit()) return nullptr;
   return map_nodes(memory, room);
 }
 
 }  // namespace
 
-TreePrepare::TreePrepare(const std::string& owner, const FroxelSettings& froxels, const ForestSettings& trees)
+TreePrepare::TreePrepare(const std::string& owner, const FroxelSettings& froxels, const TreeSettings& trees)
     : owner_(owner), froxels_(froxels), trees_(trees), lists_(owner) {
   froxels_.order = FroxelSettings::Order::depth;
 }
@@ -41,10 +41,10 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
   lists_.build(frame, froxels_, memory, indices_slot, spans);
   {
     auto span = spans.span("build");
-    forest_.build(lists_, trees_, *frame.threads, nodes_in_place(memory, lists_, trees_, *frame.threads));
+    cell_trees_.build(lists_, trees_, *frame.threads, nodes_in_place(memory, lists_, trees_, *frame.threads));
     classify_tiles();
   }
-  const uint64_t node_bytes = forest_.nodes() * sizeof(TreeNode);
+  const uint64_t node_bytes = cell_trees_.nodes() * sizeof(TreeNode);
   if (node_bytes > memory.limit())
     throw SystemError(
         fmt::format("{}: the trees would take {} bytes, the device's buffer holds {}; use fewer lights, "
@@ -55,20 +55,20 @@ void TreePrepare::prepare(const FrameInput& frame, UploadMemory& memory, Spans& 
   auto span = spans.span("upload");
   const gpu_data::FroxelGridData header = lists_.grid_data();
   std::memcpy(memory.map(grid_slot, sizeof header).data(), &header, sizeof header);
-  const auto cells = forest_.cells();
+  const auto cells = cell_trees_.cells();
   std::memcpy(memory.map(cells_slot, cells.size_bytes()).data(), cells.data(), cells.size_bytes());
-  forest_.copy_nodes(map_nodes(memory, forest_.nodes()), *frame.threads);
+  cell_trees_.copy_nodes(map_nodes(memory, cell_trees_.nodes()), *frame.threads);
   lists_.upload_entries(memory, indices_slot);
 
   counters_.in_frustum = lists_.lights_in_frustum();
   counters_.list_bytes = cells.size_bytes() + node_bytes + lists_.entry_bytes();
-  counters_.list_cells = forest_.list_cells();
-  counters_.tree_cells = forest_.tree_cells();
+  counters_.list_cells = cell_trees_.list_cells();
+  counters_.tree_cells = cell_trees_.tree_cells();
 }
 
 void TreePrepare::classify_tiles() {
   class_of_tile_.assign(lists_.grid().tiles(), 0);
-  forest_.mark_node_tiles(class_of_tile_);
+  cell_trees_.mark_node_tiles(class_of_tile_);
 }
 
 TileClasses TreePrepare::tile_classes() const {
@@ -103,8 +103,8 @@ bool with_chords(const Parameters& parameters) {
   return parameters.choice("node_depths") == "chord";
 }
 
-ForestSettings tree_settings(const Parameters& parameters) {
-  ForestSettings settings;
+TreeSettings tree_settings(const Parameters& parameters) {
+  TreeSettings settings;
   settings.lights_per_leaf = static_cast<uint32_t>(parameters.integer("lights_per_leaf"));
   settings.list_nodes = parameters.choice("lists") == "node";
   settings.trim_padding = parameters.boolean("trim_padding");

@@ -1,15 +1,15 @@
-// prepare() of the algorithms that walk trees: lists in the order of depth, a forest over them, upload.
+// prepare() of the algorithms that walk trees: lists in the order of depth, trees over them, upload.
 #pragma once
 
 #include "algorithms/algorithm.h"
-#include "algorithms/trees/forest.h"
+#include "algorithms/trees/cell_trees.h"
 
 namespace ml {
 
 class TreePrepare {
  public:
   // `owner`: the algorithm's name for messages.
-  TreePrepare(const std::string& owner, const FroxelSettings& froxels, const ForestSettings& trees);
+  TreePrepare(const std::string& owner, const FroxelSettings& froxels, const TreeSettings& trees);
 
   // Spans cull, sort, bin, build, upload.
   void prepare(const FrameInput& frame, UploadMemory& memory, Spans& spans);
@@ -22,23 +22,23 @@ class TreePrepare {
   TileClasses tile_classes() const;
 
   const FroxelLists& lists() const { return lists_; }
-  const Forest& forest() const { return forest_; }
+  const CellTrees& cell_trees() const { return cell_trees_; }
 
  private:
   void classify_tiles();
 
   std::string owner_;
   FroxelSettings froxels_;
-  ForestSettings trees_;
+  TreeSettings trees_;
   FroxelLists lists_;
-  Forest forest_;
+  CellTrees cell_trees_;
   std::vector<uint8_t> class_of_tile_;
   PrepareCounters counters_;
 };
 
 // The parameters that both have.
 std::vector<ParameterInfo> tree_parameters();
-ForestSettings tree_settings(const Parameters& parameters);
+TreeSettings tree_settings(const Parameters& parameters);
 // Whether nodes hold chords (FroxelSettings::chords).
 bool with_chords(const Parameters& parameters);
 

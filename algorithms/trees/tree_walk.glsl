@@ -120,8 +120,8 @@ bool some_depth_in(float low, float high, float depth, bool here) {
     // Between the nearest and the farthest: no leaf is missed, some are taken in vain. As bits, which are in order for
     // depths (> 0).
     const uint bits = floatBitsToUint(max(depth, 0.0));
-    const uint nearest = lowest_of_all(here ? bits : 0xffffffffu),
-               farthest = ~lowest_of_all(here ? ~bits : 0xffffffffu);
+    const uint nearest = subgroup_min(here ? bits : 0xffffffffu),
+               farthest = ~subgroup_min(here ? ~bits : 0xffffffffu);
     some = nearest <= farthest && low <= uintBitsToFloat(farthest) && uintBitsToFloat(nearest) <= high;
   }
   return some;
@@ -147,10 +147,10 @@ void tree_runs(inout LightCursor cursor, bool here, inout uint runs) {
       cursor.run_low = node.low;
       cursor.run_high = node.high;
     }
-    runs |= lanes_where(hit && leaf);
+    runs |= subgroup_ballot(hit && leaf);
     // The first missed node whose nodes go on behind these is above all others of the kind.
     const uint next = own + tree_skip(node);
-    const uint jumps = lanes_where(exists && !hit && next > behind);
+    const uint jumps = subgroup_ballot(exists && !hit && next > behind);
     cursor.node = jumps != 0u ? subgroupShuffle(next, uint(findLSB(jumps))) : behind;
   } while (runs == 0u && cursor.node < cursor.end);
 }

@@ -15,9 +15,9 @@ namespace {
 using nlohmann::json;
 
 constexpr double farthest = 1e9;  // m, any coordinate
-constexpr uint32_t most_seed = 0xffffffffu;
-constexpr uint32_t most_frames = 100000;
-constexpr size_t most_keyframes = 1000;
+constexpr uint32_t max_seed = 0xffffffffu;
+constexpr uint32_t max_frames = 100000;
+constexpr size_t max_keyframes = 1000;
 constexpr const char* auto_word = "auto";
 
 glm::dvec3 read_vector(const Node& node) {
@@ -85,7 +85,7 @@ void read_scene_root(const Node& node, SceneSpec& scene) {
 
 std::vector<CameraKey> read_keyframes(const Node& node) {
   std::vector<CameraKey> keys;
-  for (size_t i = 0, count = node.list(1, most_keyframes); i < count; ++i) {
+  for (size_t i = 0, count = node.list(1, max_keyframes); i < count; ++i) {
     Node item = node.item(i);
     item.object();
     static const std::vector<std::string> names{"time", "position", "target"};
@@ -119,8 +119,8 @@ json write_keyframes(const std::vector<CameraKey>& keys) {
 // Frame numbers, each once.
 std::vector<uint32_t> read_frames(const Node& node) {
   std::vector<uint32_t> frames;
-  for (size_t i = 0, count = node.list(0, most_frames); i < count; ++i) {
-    frames.push_back(node.item(i).unsigned_integer(0, most_frames - 1));
+  for (size_t i = 0, count = node.list(0, max_frames); i < count; ++i) {
+    frames.push_back(node.item(i).unsigned_integer(0, max_frames - 1));
   }
   std::vector<uint32_t> sorted = frames;
   std::sort(sorted.begin(), sorted.end());
@@ -189,7 +189,7 @@ std::span<const Field<SceneSpec>> scene_fields() {
          read_scene_root(n, s);
        },
        [](const SceneSpec& s) { return s.root.empty() ? json() : json(s.root.string()); }},
-      {"seed", [](const Node& n, SceneSpec& s) { s.seed = n.unsigned_integer(0, most_seed); },
+      {"seed", [](const Node& n, SceneSpec& s) { s.seed = n.unsigned_integer(0, max_seed); },
        [](const SceneSpec& s) { return json(s.seed); }},
       {"offset", [](const Node& n, SceneSpec& s) { s.offset = read_vector(n); },
        [](const SceneSpec& s) { return write_vector(s.offset); }},
@@ -230,7 +230,7 @@ std::span<const Field<LightSpec>> light_fields() {
        [](const L& l) { return json(shortest_double(l.probe_fraction)); }},
       {"intensity", [](const Node& n, L& l) { l.intensity = static_cast<float>(n.real(1e-9, 1e9)); },
        [](const L& l) { return json(shortest_double(l.intensity)); }},
-      {"seed", [](const Node& n, L& l) { l.seed = n.unsigned_integer(0, most_seed); },
+      {"seed", [](const Node& n, L& l) { l.seed = n.unsigned_integer(0, max_seed); },
        [](const L& l) { return json(l.seed); }},
       {"animate", [](const Node& n, L& l) { l.script = read_enum<LightScript>(n, light_script_names()); },
        [](const L& l) { return l.script ? write_enum(*l.script, light_script_names()) : json(); }},
@@ -246,7 +246,7 @@ std::span<const Field<CameraSpec>> camera_fields() {
          c.keyframes.clear();
        },
        [](const CameraSpec& c) { return c.keyframes.empty() ? json(c.path) : json(); }},
-      {"frames", [](const Node& n, CameraSpec& c) { c.frames = n.unsigned_integer(1, most_frames); },
+      {"frames", [](const Node& n, CameraSpec& c) { c.frames = n.unsigned_integer(1, max_frames); },
        [](const CameraSpec& c) { return json(c.frames); }},
       {"keyframes",
        [](const Node& n, CameraSpec& c) {
@@ -308,7 +308,7 @@ std::span<const Field<MeasureSpec>> measure_fields() {
        [](const M& m) { return json(m.repeats); }},
       {"threads", [](const Node& n, M& m) { m.threads = n.unsigned_integer(1, 256); },
        [](const M& m) { return json(m.threads); }},
-      {"seed", [](const Node& n, M& m) { m.seed = n.unsigned_integer(0, most_seed); },
+      {"seed", [](const Node& n, M& m) { m.seed = n.unsigned_integer(0, max_seed); },
        [](const M& m) { return json(m.seed); }},
       {"mode", [](const Node& n, M& m) { m.mode = read_enum<TimingMode>(n, timing_mode_names()); },
        [](const M& m) { return write_enum(m.mode, timing_mode_names()); }},

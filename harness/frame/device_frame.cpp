@@ -76,7 +76,7 @@ DeviceFrame::DeviceFrame(gpu::Device& device, const Scene& scene, const FrameOpt
       view_(device, sizeof(gpu_data::ViewData), gpu::MemoryKind::upload, "view"),
       lights_(device, "lights"),
       extras_(device, "light extras"),
-      seen_blocks_(device, width, height),
+      occupied_blocks_(device, width, height),
       passes_(std::make_unique<ContributingPasses>(device, options, width, height)) {
   if (options.shading.shadow_maps)
     shadow_maps_ =
@@ -99,12 +99,12 @@ void DeviceFrame::load(const FrameInput& input) {
   commands_.transfer(extras_);
   level_.record_gbuffer(commands_, view_, targets_);
   clear_results();
-  seen_blocks_.record(commands_, bindings());
+  occupied_blocks_.record(commands_, bindings());
   commands_.submit();
-  seen_blocks_.read();
-  if (!seen_blocks_.list().has_twin()) return;
+  occupied_blocks_.read();
+  if (!occupied_blocks_.list().has_twin()) return;
   commands_.begin(gpu::Timing::none);
-  commands_.transfer(seen_blocks_.list());
+  commands_.transfer(occupied_blocks_.list());
   commands_.submit();
 }
 

@@ -10,7 +10,7 @@
 #include "algorithms/algorithm.h"
 #include "harness/frame/frame_options.h"
 #include "harness/frame/level.h"
-#include "harness/frame/seen_blocks.h"
+#include "harness/frame/occupied_blocks.h"
 #include "harness/frame/shadow_maps.h"
 #include "harness/frame/targets.h"
 #include "harness/gpu/commands.h"
@@ -41,7 +41,7 @@ class DeviceFrame {
   // black: blocks where nothing is seen stay so.
   void load(const FrameInput& input);
   // Of the frame that is loaded.
-  const SeenBlocks& seen_blocks() const { return seen_blocks_; }
+  const OccupiedBlocks& occupied_blocks() const { return occupied_blocks_; }
 
   // Finds the contributing lights of the loaded frame (bounds of each 8x8 block's points against every light,
   // then every pixel against what is left). With `lists` their indices stay on the device for shading passes
@@ -96,7 +96,7 @@ class DeviceFrame {
   gpu::Commands commands_;
   gpu::Buffer view_;
   gpu::UploadBuffer lights_, extras_;
-  SeenBlocks seen_blocks_;
+  OccupiedBlocks occupied_blocks_;
   std::unique_ptr<gpu::Buffer> readback_;
   struct ContributingPasses;
   std::unique_ptr<ContributingPasses> passes_;

@@ -13,7 +13,7 @@ namespace ml {
 namespace {
 
 // Workgroups along one axis on the smallest devices.
-constexpr uint32_t most_groups = 65535;
+constexpr uint32_t max_groups = 65535;
 
 void append(gpu::Constants& constants, const gpu::Constants& more) {
   constants.insert(constants.end(), more.begin(), more.end());
@@ -244,9 +244,9 @@ void ShadedAlgorithm::shade_blocks(gpu::Commands& commands, const Variant& varia
     const uint32_t end_light = first_light + std::min(range(), lights - first_light);
     // Every pixel is in one block, and every block in one dispatch.
     auto apart = commands.unordered();
-    for (uint32_t first = begin; first < end; first += std::min(most_groups, end - first))
+    for (uint32_t first = begin; first < end; first += std::min(max_groups, end - first))
       commands.dispatch(program(variant), bindings, BlockRange{first, first_light, end_light},
-                        std::min(most_groups, end - first));
+                        std::min(max_groups, end - first));
     first_light = end_light;
   } while (first_light < lights);
 }
@@ -286,11 +286,11 @@ void ShadedAlgorithm::record_loop(gpu::Commands& commands, DeviceFrame& frame, c
     }
     Variant variant{
         .counting = counting, .loop = loop_of(frame, input, together_), .tile_class = only_class_};
-    into.emplace_back("Blocks", one_class_ ? frame.seen_blocks().list() : class_blocks_);
+    into.emplace_back("Blocks", one_class_ ? frame.occupied_blocks().list() : class_blocks_);
     auto span = commands.span("shade");
     if (one_class_)
       shade_blocks(commands, variant, into, input, 0,
-                   static_cast<uint32_t>(frame.seen_blocks().places().size()));
+                   static_cast<uint32_t>(frame.occupied_blocks().places().size()));
     for (uint32_t c = 0; !one_class_ && c < block_ends_.size(); ++c) {
       variant.tile_class = c;
       shade_blocks(commands, variant, into, input, c == 0 ? 0 : block_ends_[c - 1], block_ends_[c]);

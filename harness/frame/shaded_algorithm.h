@@ -22,7 +22,7 @@ class ShadedAlgorithm final : private UploadMemory {
                   const FrameOptions& options);
 
   // CPU: lists of the frame into mapped memory. Spans of the algorithm's stages. `blocks`: the 8x8 px blocks
-  // that will be shaded, in their order: those of the frame that is loaded (SeenBlocks).
+  // that will be shaded, in their order: those of the frame that is loaded (OccupiedBlocks).
   void prepare(const FrameInput& input, Spans& spans, std::span<const glm::u16vec2> blocks);
 
   // GPU, timed: list building and shading of the frame that is loaded.

@@ -144,19 +144,19 @@ void check_version_and_extensions(File& file, const Json& raw) {
 }
 
 void note_unknown_extensions(File& file, const Json& raw) {
-  constexpr size_t most_names = 24;  // more than any honest file has
+  constexpr size_t max_names = 24;  // more than any honest file has
   std::map<std::string, size_t> uses;
   for_each_extension(raw, [&](const std::string& name) {
     if (!is_known(name)) ++uses[name];
   });
   size_t shown = 0;
   for (const auto& [name, count] : uses) {
-    if (shown++ == most_names) break;
+    if (shown++ == max_names) break;
     file.notes.push_back(one_line(std::to_string(count) + (count == 1 ? " use of " : " uses of ") + name +
                                   ", which is ignored"));
   }
-  if (uses.size() > most_names)
-    file.notes.push_back(std::to_string(uses.size() - most_names) + " more extensions are ignored");
+  if (uses.size() > max_names)
+    file.notes.push_back(std::to_string(uses.size() - max_names) + " more extensions are ignored");
 }
 
 }  // namespace ml::gltf

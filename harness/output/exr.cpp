@@ -22,7 +22,7 @@ namespace ml {
 namespace {
 
 constexpr int64_t largest_side = 32768;  // px
-constexpr size_t most_channels = 16;
+constexpr size_t max_channels = 16;
 
 class MemoryOutput : public Imf::OStream {
  public:
@@ -96,9 +96,9 @@ Picture read_stream(MemoryInput& stream) {
     throw std::runtime_error("its size is not within 1 and " + std::to_string(largest_side) +
                              " pixels a side");
   std::vector<std::string> names = channel_names(input.header());
-  if (names.empty() || names.size() > most_channels)
+  if (names.empty() || names.size() > max_channels)
     throw std::runtime_error("it has " + std::to_string(names.size()) + " channels, not 1 to " +
-                             std::to_string(most_channels));
+                             std::to_string(max_channels));
   Picture picture(static_cast<uint32_t>(width), static_cast<uint32_t>(height), std::move(names));
   input.setFrameBuffer(frame_buffer(picture, window.min.x, window.min.y));
   input.readPixels(window.min.y, window.max.y);

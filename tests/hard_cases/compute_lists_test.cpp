@@ -118,7 +118,7 @@ TEST_F(ComputeLists, SpansOfBothSidesAreThereAndInTheirPlaces) {
     check.load(camera(), lights());
     ShadedAlgorithm& algorithm = check.algorithm({});
     Spans spans;
-    algorithm.prepare(check.input(), spans, check.frame().seen_blocks().places());
+    algorithm.prepare(check.input(), spans, check.frame().occupied_blocks().places());
     const gpu::SubmissionTimes times = algorithm.shade(check.frame(), check.input(), gpu::Timing::stages);
     EXPECT_EQ(times.forked, compute);
     std::map<std::string, gpu::SubmissionTimes::Interval> by_name;
@@ -165,7 +165,7 @@ TEST_F(ShadowMapLoad, MapsShowTheLevelFromTheLargestLights) {
   std::vector<Light> two{omni({0, 4, 0}, 9), spot({-20, 8, 0}, 12, {0, -1, 0}, 20, 30), omni({3, 2, 1}, 1)};
   check.load(camera_at({0, 6, 20}, {0, 0, 0}, 48, 48), two);
   Spans spans;
-  check.algorithm({}).prepare(check.input(), spans, check.frame().seen_blocks().places());
+  check.algorithm({}).prepare(check.input(), spans, check.frame().occupied_blocks().places());
   check.algorithm({}).shade(check.frame(), check.input(), gpu::Timing::none);
   ASSERT_EQ(check.frame().shadow_maps()->maps().size(), 3u);
   auto nearest = [&](size_t map, uint32_t x, uint32_t y) {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "algorithms/froxels/grid_data.h"
-#include "algorithms/trees/forest_chunk.h"
+#include "algorithms/trees/tree_chunk.h"
 #include "shaders/shared/pixel_groups.h"
 #include "tests/hard_cases/hard_cases.h"
 #include "tests/unit/algorithms/plain_memory.h"

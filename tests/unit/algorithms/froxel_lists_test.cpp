@@ -61,7 +61,7 @@ TEST(FroxelLists, VectorCodeGivesTheReferencesBits) {
     lists.build(fixture.frame, settings, no_limit, spans);
     reference.build(fixture.frame, settings);
     ASSERT_TRUE(std::ranges::equal(lists.offsets(), reference.offsets())) << "seed " << seed;
-    swept += lists.swept();
+    swept += lists.built_by_rows();
     ASSERT_TRUE(std::ranges::equal(lists.entries(), reference.entries())) << "seed " << seed;
   }
   // Both ways of writing lists were taken.
@@ -101,7 +101,7 @@ TEST(FroxelLists, AreTheSameWhereTheyAreBuiltInUploadMemory) {
     ASSERT_TRUE(std::ranges::equal(cached.all(), bytes)) << "seed " << seed;
     ASSERT_TRUE(std::ranges::equal(uncached.all(), bytes)) << "seed " << seed;
     ASSERT_TRUE(std::ranges::equal(in_place.entries(), own.entries())) << "seed " << seed;
-    swept += own.swept();
+    swept += own.built_by_rows();
     narrow += own.grid_data().narrow;
   }
   EXPECT_GT(swept, 5u);

@@ -7,7 +7,7 @@
 
 #include "algorithms/froxels/ball_test.h"
 #include "algorithms/froxels/reference_lists.h"
-#include "algorithms/trees/reference_forest.h"
+#include "algorithms/trees/reference_trees.h"
 #include "algorithms/vector_target.h"
 #include "binning_cases.h"
 #include "harness/base/error.h"
@@ -226,7 +226,7 @@ TEST(VectorTargets, BallTestGivesTheScalarPairs) {
 }
 
 // Whether it would be taken or not, and with lanes of 8, 16 and 32 bits.
-TEST(VectorTargets, SweptListsAreThoseOfTheBoxes) {
+TEST(VectorTargets, RowListsAreThoseOfTheBoxes) {
   with_every_target([] {
     for (uint32_t seed = 0; seed < 60; ++seed) {
       SCOPED_TRACE(seed);
@@ -242,12 +242,12 @@ TEST(VectorTargets, SweptListsAreThoseOfTheBoxes) {
             for (uint32_t column = 0; column < boxes[i].columns; ++column)
               expected[boxes[i].first + grid.cell(column, row, slice)].push_back(boxes[i].light);
       for (size_t light_end : {given.frame().lights.count(), size_t{0x10000}, size_t{0x10001}}) {
-        SweepMemory memory;
+        RowMemory memory;
         std::vector<uint32_t> offsets, list;
         reserve_padded(offsets, grid.cells() + size_t{1});
         reserve_padded(list, sum);
-        const uint32_t longest = simd::sweep(boxes.data(), nullptr, visible.count, grid, light_end, memory,
-                                             offsets.data(), list.data());
+        const uint32_t longest = simd::list_rows(boxes.data(), nullptr, visible.count, grid, light_end,
+                                                 memory, offsets.data(), list.data());
         ASSERT_EQ(offsets[grid.cells()], sum);
         size_t most = 0;
         for (uint32_t cell = 0; cell < grid.cells(); ++cell) {
@@ -278,24 +278,24 @@ TEST(VectorTargets, ListsAndTreesAreThoseOfTheReference) {
       ASSERT_TRUE(std::ranges::equal(lists.entries(), reference.entries()));
 
       froxels.order = FroxelSettings::Order::depth;
-      ForestSettings trees;
+      TreeSettings trees;
       trees.lights_per_leaf = 1 + given.random.below(20);
       trees.threshold = given.random.below(2) ? 1 : 0.4f;
       trees.clipped = given.random.below(2) != 0;
       trees.list_nodes = given.random.below(2) != 0;
       lists.build(given.frame(), froxels, no_limit, spans);
       reference.build(given.frame(), froxels);
-      Forest forest;
-      forest.build(lists, trees, *given.frame().threads);
-      std::vector<gpu_data::TreeNode> nodes(forest.nodes());
-      forest.copy_nodes(nodes.data(), *given.frame().threads);
-      ReferenceForest expected;
+      CellTrees cell_trees;
+      cell_trees.build(lists, trees, *given.frame().threads);
+      std::vector<gpu_data::TreeNode> nodes(cell_trees.nodes());
+      cell_trees.copy_nodes(nodes.data(), *given.frame().threads);
+      ReferenceTrees expected;
       expected.build(reference, trees);
       ASSERT_TRUE(std::ranges::equal(lists.entries(), expected.lights()));
       const auto node_words = [](const auto& node) { return std::bit_cast<std::array<uint32_t, 4>>(node); };
       const auto cell_words = [](const auto& cell) { return std::bit_cast<std::array<uint32_t, 2>>(cell); };
       ASSERT_TRUE(std::ranges::equal(nodes, expected.nodes(), {}, node_words, node_words));
-      ASSERT_TRUE(std::ranges::equal(forest.cells(), expected.cells(), {}, cell_words, cell_words));
+      ASSERT_TRUE(std::ranges::equal(cell_trees.cells(), expected.cells(), {}, cell_words, cell_words));
     }
   });
 }

@@ -12,7 +12,7 @@
 namespace ml {
 namespace {
 
-TEST(LightLaw, MomentsAreThoseOfTheParetoLaw) {
+TEST(RadiusDistribution, MomentsAreThoseOfTheParetoLaw) {
   RadiusMoments moments = radius_moments(32);
   EXPECT_NEAR(moments.mean, 1.94, 0.005);
   EXPECT_NEAR(moments.square, 6.94, 0.005);
@@ -34,7 +34,7 @@ TEST(LightLaw, MomentsAreThoseOfTheParetoLaw) {
   }
 }
 
-TEST(LightLaw, RadiiStayBetweenTheirEnds) {
+TEST(RadiusDistribution, RadiiStayBetweenTheirEnds) {
   for (float s : {0.01f, 0.6f, 7.0f}) {
     EXPECT_EQ(pareto_radius(0, s, 32), s);
     float last = 0;
@@ -48,7 +48,7 @@ TEST(LightLaw, RadiiStayBetweenTheirEnds) {
   }
 }
 
-TEST(LightLaw, OverdrawStaysOrGrowsWithTheCount) {
+TEST(RadiusDistribution, OverdrawStaysOrGrowsWithTheCount) {
   for (Placement placement : {Placement::volume, Placement::area, Placement::triangle}) {
     double power = placement == Placement::volume ? 3 : 2;
     double first = -1;
@@ -63,7 +63,7 @@ TEST(LightLaw, OverdrawStaysOrGrowsWithTheCount) {
   }
 }
 
-TEST(LightLaw, TheCanyonHasItsOwnSizeAndOtherLevelsAboutThreeLightsPerPoint) {
+TEST(RadiusDistribution, TheCanyonHasItsOwnSizeAndOtherLevelsAboutThreeLightsPerPoint) {
   Scene canyon;
   canyon.light_defaults = describe_scene("canyon").lights;
   EXPECT_EQ(default_base_size(canyon, Placement::volume, 32), 0.6);

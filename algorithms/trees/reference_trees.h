@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "algorithms/froxels/reference_lists.h"
-#include "algorithms/trees/forest.h"
+#include "algorithms/trees/cell_trees.h"
 #include "algorithms/trees/tree_node.h"
 
 namespace ml {
 
-class ReferenceForest {
+class ReferenceTrees {
  public:
-  void build(const ReferenceLists& lists, const ForestSettings& settings);
+  void build(const ReferenceLists& lists, const TreeSettings& settings);
 
   const std::vector<gpu_data::TreeCell>& cells() const { return cells_; }
   const std::vector<gpu_data::TreeNode>& nodes() const { return nodes_; }
@@ -27,7 +27,7 @@ class ReferenceForest {
     uint32_t first, lights, skip;
     bool leaf;
   };
-  bool wants_tree(const ReferenceLists& lists, uint32_t cell, const ForestSettings& settings) const;
+  bool wants_tree(const ReferenceLists& lists, uint32_t cell, const TreeSettings& settings) const;
   void build_tree(const ReferenceLists& lists, uint32_t cell, uint32_t per_leaf, bool trim);
   void append(const Node& node);
 

@@ -11,8 +11,8 @@
 
 namespace ml {
 
-// Memory of sweep(), kept between frames. Lanes as narrow as light indices and extents allow.
-class SweepMemory {
+// Memory of list_rows(), kept between frames. Lanes as narrow as light indices and extents allow.
+class RowMemory {
  public:
   // First froxel and extent along each axis of some lights' boxes.
   template <typename Lane>
@@ -35,18 +35,18 @@ class SweepMemory {
 
 namespace simd {
 // How many lights are sifted at a time when no light's index reaches `light_end`.
-uint32_t sweep_lanes(size_t light_end, const FroxelGrid& grid);
+uint32_t row_lanes(size_t light_end, const FroxelGrid& grid);
 // Writes the lights of all froxels one after the other, each froxel's in the order of the boxes
 // boxes[places[0..count)], or without places boxes[0..count), and offsets[0 .. cells]: where each froxel's
 // begin, and the end of the last. `list` has room for all and is written from front to back. Returns the
 // longest list.
-uint32_t sweep(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
-               size_t light_end, SweepMemory& memory, uint32_t* offsets, uint32_t* list);
+uint32_t list_rows(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+                   size_t light_end, RowMemory& memory, uint32_t* offsets, uint32_t* list);
 }  // namespace simd
 
 // Whether sweeping is cheaper than `pairs` pairs of a froxel and a light: a step of either costs about the
 // same. boxes[0..count) in any order.
-bool sweep_is_cheaper(const LightBox* boxes, size_t count, uint64_t pairs, const FroxelGrid& grid,
+bool rows_are_cheaper(const LightBox* boxes, size_t count, uint64_t pairs, const FroxelGrid& grid,
                       size_t light_end);
 
 }  // namespace ml

@@ -2,8 +2,8 @@
 // The set that compresses lanes of 8 and 16 bits is made only where it is asked for.
 #define HWY_WANT_AVX3_DL
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "algorithms/froxels/swept_lists.cpp"
-#include "algorithms/froxels/swept_lists.h"
+#define HWY_TARGET_INCLUDE "algorithms/froxels/row_lists.cpp"
+#include "algorithms/froxels/row_lists.h"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -20,9 +20,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr bool compresses_narrow = HWY_TARGET == HWY_AVX3_DL;
 
 template <typename Lane>
-class Sweep {
+class RowSift {
  public:
-  Sweep(SweepMemory::Levels<Lane>& levels, const FroxelGrid& grid) : m_(levels), grid_(grid) {}
+  RowSift(RowMemory::Levels<Lane>& levels, const FroxelGrid& grid) : m_(levels), grid_(grid) {}
 
   uint32_t operator()(const LightBox* boxes, const uint32_t* places, size_t count, uint32_t* offsets,
                       uint32_t* list) {
@@ -41,7 +41,7 @@ class Sweep {
   }
 
  private:
-  using Boxes = SweepMemory::Boxes<Lane>;
+  using Boxes = RowMemory::Boxes<Lane>;
   using Tag = hn::ScalableTag<Lane>;
   using V = hn::Vec<Tag>;
   // Entries that wait in the nearest cache to be widened.
@@ -181,7 +181,7 @@ class Sweep {
   }
 
   const Tag d_;
-  SweepMemory::Levels<Lane>& m_;
+  RowMemory::Levels<Lane>& m_;
   const FroxelGrid& grid_;
   size_t taken_ = 0;
   uint32_t *offsets_ = nullptr, *list_ = nullptr;
@@ -194,20 +194,20 @@ size_t lane_bytes(size_t light_end, const FroxelGrid& grid) {
   return light_end <= 0x100 && std::max({grid.columns, grid.rows, grid.slices}) < 0x100 ? 1 : 2;
 }
 
-uint32_t sweep_lanes(size_t light_end, const FroxelGrid& grid) {
+uint32_t row_lanes(size_t light_end, const FroxelGrid& grid) {
   // Portable code has one lane, whatever its bytes.
   const size_t bytes = hn::Lanes(hn::ScalableTag<uint8_t>());
   return static_cast<uint32_t>(std::max<size_t>(bytes / lane_bytes(light_end, grid), 1));
 }
 
-uint32_t sweep(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
-               size_t light_end, SweepMemory& memory, uint32_t* offsets, uint32_t* list) {
+uint32_t list_rows(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+                   size_t light_end, RowMemory& memory, uint32_t* offsets, uint32_t* list) {
   const size_t bytes = lane_bytes(light_end, grid);
   if constexpr (compresses_narrow) {
-    if (bytes == 1) return Sweep(memory.levels<uint8_t>(), grid)(boxes, places, count, offsets, list);
-    if (bytes == 2) return Sweep(memory.levels<uint16_t>(), grid)(boxes, places, count, offsets, list);
+    if (bytes == 1) return RowSift(memory.levels<uint8_t>(), grid)(boxes, places, count, offsets, list);
+    if (bytes == 2) return RowSift(memory.levels<uint16_t>(), grid)(boxes, places, count, offsets, list);
   }
-  return Sweep(memory.levels<uint32_t>(), grid)(boxes, places, count, offsets, list);
+  return RowSift(memory.levels<uint32_t>(), grid)(boxes, places, count, offsets, list);
 }
 
 }  // namespace ml::simd::HWY_NAMESPACE
@@ -217,20 +217,20 @@ HWY_AFTER_NAMESPACE();
 namespace ml {
 namespace simd {
 
-HWY_EXPORT(sweep_lanes);
-HWY_EXPORT(sweep);
+HWY_EXPORT(row_lanes);
+HWY_EXPORT(list_rows);
 
-uint32_t sweep_lanes(size_t light_end, const FroxelGrid& grid) {
-  return HWY_DYNAMIC_DISPATCH(sweep_lanes)(light_end, grid);
+uint32_t row_lanes(size_t light_end, const FroxelGrid& grid) {
+  return HWY_DYNAMIC_DISPATCH(row_lanes)(light_end, grid);
 }
-uint32_t sweep(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
-               size_t light_end, SweepMemory& memory, uint32_t* offsets, uint32_t* list) {
-  return HWY_DYNAMIC_DISPATCH(sweep)(boxes, places, count, grid, light_end, memory, offsets, list);
+uint32_t list_rows(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+                   size_t light_end, RowMemory& memory, uint32_t* offsets, uint32_t* list) {
+  return HWY_DYNAMIC_DISPATCH(list_rows)(boxes, places, count, grid, light_end, memory, offsets, list);
 }
 
 }  // namespace simd
 
-bool sweep_is_cheaper(const LightBox* boxes, size_t count, uint64_t pairs, const FroxelGrid& grid,
+bool rows_are_cheaper(const LightBox* boxes, size_t count, uint64_t pairs, const FroxelGrid& grid,
                       size_t light_end) {
   // Rows of few froxels cannot win, and need no sum to say so.
   if (pairs < 4 * uint64_t{count}) return false;
@@ -239,7 +239,7 @@ bool sweep_is_cheaper(const LightBox* boxes, size_t count, uint64_t pairs, const
     in_slices += boxes[i].slices;
     in_rows += uint64_t{boxes[i].slices} * boxes[i].rows;
   }
-  const uint64_t lanes = simd::sweep_lanes(light_end, grid);
+  const uint64_t lanes = simd::row_lanes(light_end, grid);
   const uint64_t slice_steps = grid.slices * (count / lanes + 1);
   const uint64_t row_steps = grid.rows * (in_slices / lanes + grid.slices);
   const uint64_t froxel_steps = grid.columns * (in_rows / lanes + grid.slices * grid.rows);

@@ -1,4 +1,4 @@
-#include "algorithms/trees/reference_forest.h"
+#include "algorithms/trees/reference_trees.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@ void list_depth_first(uint32_t node, uint32_t nodes, std::vector<uint32_t>& tabl
 
 }  // namespace
 
-bool ReferenceForest::wants_tree(const ReferenceLists& lists, uint32_t cell,
-                                 const ForestSettings& settings) const {
+bool ReferenceTrees::wants_tree(const ReferenceLists& lists, uint32_t cell,
+                                const TreeSettings& settings) const {
   if (settings.threshold == infinity) return true;
   const FroxelGrid::DepthRange extent = cell_depths_[cell / lists.grid().tiles()];
   const uint32_t begin = lists.offsets()[cell], end = lists.offsets()[cell + 1];
@@ -35,13 +35,13 @@ bool ReferenceForest::wants_tree(const ReferenceLists& lists, uint32_t cell,
   return is_tree(sum, end - begin, settings.threshold);
 }
 
-void ReferenceForest::append(const Node& node) {
+void ReferenceTrees::append(const Node& node) {
   nodes_.push_back({node.low, node.high, node.leaf ? node.first : node.lights,
                     (node.leaf ? ML_TREE_LEAF | node.lights << ML_TREE_COUNT_SHIFT : 0u) |
                         node.skip << ML_TREE_SKIP_SHIFT});
 }
 
-void ReferenceForest::build_tree(const ReferenceLists& lists, uint32_t cell, uint32_t per_leaf, bool trim) {
+void ReferenceTrees::build_tree(const ReferenceLists& lists, uint32_t cell, uint32_t per_leaf, bool trim) {
   const uint32_t begin = lists.offsets()[cell], count = lists.offsets()[cell + 1] - begin;
   uint32_t used = (count + per_leaf - 1) / per_leaf, leaves = 1, height = 0;
   while (leaves < used) leaves *= 2, ++height;
@@ -73,7 +73,7 @@ void ReferenceForest::build_tree(const ReferenceLists& lists, uint32_t cell, uin
     while (nodes_.size() > first && nodes_.back().low > nodes_.back().high) nodes_.pop_back();
 }
 
-void ReferenceForest::build(const ReferenceLists& lists, const ForestSettings& settings) {
+void ReferenceTrees::build(const ReferenceLists& lists, const TreeSettings& settings) {
   cell_depth_extents(lists.grid(), cell_depths_);
   const uint32_t cells = lists.grid().cells();
   cells_.assign(cells, {0, 0});

@@ -1,4 +1,4 @@
-#include "algorithms/trees/forest.h"
+#include "algorithms/trees/cell_trees.h"
 
 #include <algorithm>
 #include <cstring>
@@ -14,8 +14,8 @@ void cell_depth_extents(const FroxelGrid& grid, std::vector<FroxelGrid::DepthRan
   for (FroxelGrid::DepthRange& extent : extents) extent.high = std::max(extent.high, extent.low);
 }
 
-void Forest::build(const FroxelLists& lists, const ForestSettings& settings, Threads& threads,
-                   TreeNode* in_place) {
+void CellTrees::build(const FroxelLists& lists, const TreeSettings& settings, Threads& threads,
+                      TreeNode* in_place) {
   const uint32_t cells = lists.grid().cells();
   cell_depth_extents(lists.grid(), cell_depths_);
   cells_.resize(cells);
@@ -37,27 +37,27 @@ void Forest::build(const FroxelLists& lists, const ForestSettings& settings, Thr
     chunks_[c].end_cell = place(c + 1);
   }
   threads.for_each(chunk_count_, [&](size_t c) {
-    ForestChunk& chunk = chunks_[c];
+    TreeChunk& chunk = chunks_[c];
     if (chunk_count_ == 1 && in_place) {
       chunk.nodes = in_place;
     } else {
       const size_t cells_of_chunk = chunk.end_cell - chunk.first_cell;
       reserve_padded(own_nodes_[c],
-                     node_room(settings, offsets.subspan(chunk.first_cell, cells_of_chunk + 1)));
+                     node_capacity(settings, offsets.subspan(chunk.first_cell, cells_of_chunk + 1)));
       chunk.nodes = own_nodes_[c].data();
     }
     simd::build_chunk(lists, settings, cell_depths_, cells_.data(), chunk);
   });
   nodes_ = list_cells_ = tree_cells_ = 0;
   for (size_t c = 0; c < chunk_count_; ++c) {
-    ForestChunk& chunk = chunks_[c];
+    TreeChunk& chunk = chunks_[c];
     chunk.first_node = nodes_;
     nodes_ += chunk.count;
     list_cells_ += chunk.list_cells;
     tree_cells_ += chunk.tree_cells;
   }
   threads.for_each(chunk_count_, [&](size_t c) {
-    const ForestChunk& chunk = chunks_[c];
+    const TreeChunk& chunk = chunks_[c];
     const auto before = static_cast<uint32_t>(chunk.first_node);
     if (before == 0) return;
     for (uint32_t cell = chunk.first_cell; cell < chunk.end_cell; ++cell) {
@@ -69,14 +69,14 @@ void Forest::build(const FroxelLists& lists, const ForestSettings& settings, Thr
   });
 }
 
-void Forest::mark_node_tiles(std::span<uint8_t> tiles) const {
+void CellTrees::mark_node_tiles(std::span<uint8_t> tiles) const {
   for (size_t c = 0; c < chunk_count_; ++c)
     for (uint32_t tile : std::span(chunks_[c].node_tiles).first(chunks_[c].node_cells)) tiles[tile] = 1;
 }
 
-void Forest::copy_nodes(TreeNode* to, Threads& threads) const {
+void CellTrees::copy_nodes(TreeNode* to, Threads& threads) const {
   threads.for_each(chunk_count_, [&](size_t c) {
-    const ForestChunk& chunk = chunks_[c];
+    const TreeChunk& chunk = chunks_[c];
     if (chunk.count > 0 && chunk.nodes != to)
       std::memcpy(to + chunk.first_node, chunk.nodes, chunk.count * sizeof(TreeNode));
   });

@@ -1,6 +1,6 @@
 // Light trees: every light is reached wherever it may shine, the same as the scalar reference, within the
 // node's fields, independent of threads.
-#include "algorithms/trees/forest.h"
+#include "algorithms/trees/cell_trees.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "algorithms/trees/reference_forest.h"
+#include "algorithms/trees/reference_trees.h"
 #include "algorithms/trees/tree_prepare.h"
 #include "binning_cases.h"
 #include "plain_memory.h"
@@ -24,8 +24,8 @@ using gpu_data::TreeNode;
 constexpr uint64_t no_limit = uint64_t{1} << 28;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-ForestSettings random_forest(Random& random) {
-  ForestSettings settings;
+TreeSettings random_trees(Random& random) {
+  TreeSettings settings;
   settings.lights_per_leaf = 1 + random.below(64);
   constexpr float thresholds[] = {0, 0.25f, 0.5f, 1, infinity};
   settings.threshold = thresholds[random.below(5)];
@@ -38,20 +38,20 @@ ForestSettings random_forest(Random& random) {
 
 struct Trees {
   FroxelLists lists{"test"};
-  Forest forest;
+  CellTrees cell_trees;
   std::vector<TreeNode> nodes;
-  Trees(const FrameInput& frame, FroxelSettings froxels, const ForestSettings& settings) {
+  Trees(const FrameInput& frame, FroxelSettings froxels, const TreeSettings& settings) {
     froxels.order = FroxelSettings::Order::depth;
     Spans spans;
     lists.build(frame, froxels, no_limit, spans);
-    forest.build(lists, settings, *frame.threads);
-    nodes.resize(forest.nodes());
-    forest.copy_nodes(nodes.data(), *frame.threads);
+    cell_trees.build(lists, settings, *frame.threads);
+    nodes.resize(cell_trees.nodes());
+    cell_trees.copy_nodes(nodes.data(), *frame.threads);
   }
   // Listing 3: the lights that a pixel of this cell and depth gets to see, in order.
   std::vector<uint32_t> walk(uint32_t cell, float depth) const {
     std::vector<uint32_t> lights;
-    const gpu_data::TreeCell place = forest.cells()[cell];
+    const gpu_data::TreeCell place = cell_trees.cells()[cell];
     if (place.end & ML_TREE_CELL_LIST) {
       const auto list = lists.entries().subspan(place.first, place.end & ~ML_TREE_CELL_LIST);
       return {list.begin(), list.end()};
@@ -68,14 +68,14 @@ struct Trees {
   }
 };
 
-TEST(Forest, EveryLightIsReachedWhereverAPixelCanSeeInsideIt) {
+TEST(CellTrees, EveryLightIsReachedWhereverAPixelCanSeeInsideIt) {
   for (uint32_t seed = 0; seed < 300; ++seed) {
     Random random(seed);
     const uint32_t width = 1 + random.below(200), height = 1 + random.below(200);
     Camera camera = random_camera(random);
     BinningFrame fixture(random_lights(random, 80, camera), camera, width, height);
     FroxelSettings settings = random_settings(random);
-    Trees trees(fixture.frame, settings, random_forest(random));
+    Trees trees(fixture.frame, settings, random_trees(random));
     SCOPED_TRACE(seed);
     expect_no_light_lost(random, fixture.frame, trees.lists.grid(), 200,
                          [&](uint32_t cell, float depth) { return trees.walk(cell, depth); });
@@ -83,7 +83,7 @@ TEST(Forest, EveryLightIsReachedWhereverAPixelCanSeeInsideIt) {
   }
 }
 
-TEST(Forest, FastPathGivesTheReferencesBits) {
+TEST(CellTrees, FastPathGivesTheReferencesBits) {
   for (uint32_t seed = 0; seed < 300; ++seed) {
     Random random(1000 + seed);
     Camera camera = random_camera(random);
@@ -93,15 +93,15 @@ TEST(Forest, FastPathGivesTheReferencesBits) {
     FroxelSettings froxels = random_settings(random);
     froxels.refinement = froxels.ball_test = false;
     froxels.order = FroxelSettings::Order::depth;
-    const ForestSettings settings = random_forest(random);
+    const TreeSettings settings = random_trees(random);
     Trees trees(fixture.frame, froxels, settings);
     ReferenceLists lists;
-    ReferenceForest reference;
+    ReferenceTrees reference;
     lists.build(fixture.frame, froxels);
     reference.build(lists, settings);
     ASSERT_TRUE(std::ranges::equal(trees.lists.entries(), reference.lights())) << "seed " << seed;
     ASSERT_TRUE(
-        std::ranges::equal(trees.forest.cells(), reference.cells(),
+        std::ranges::equal(trees.cell_trees.cells(), reference.cells(),
                            [](const auto& a, const auto& b) { return a.first == b.first && a.end == b.end; }))
         << "seed " << seed;
     ASSERT_EQ(trees.nodes.size(), reference.nodes().size()) << "seed " << seed;
@@ -115,11 +115,11 @@ TEST(Forest, FastPathGivesTheReferencesBits) {
 }
 
 // Builds once more, in place, and expects the same nodes and nothing behind the room for them.
-void expect_same_in_place(const Trees& trees, const ForestSettings& settings, Threads& threads) {
+void expect_same_in_place(const Trees& trees, const TreeSettings& settings, Threads& threads) {
   const TreeNode untouched{1, 2, 3, 4};
-  const size_t room = Forest::room(trees.lists, settings);
+  const size_t room = CellTrees::capacity(trees.lists, settings);
   std::vector<TreeNode> nodes(room + 100, untouched);
-  Forest in_place;
+  CellTrees in_place;
   in_place.build(trees.lists, settings, threads, nodes.data());
   ASSERT_LE(in_place.nodes(), room);
   in_place.copy_nodes(nodes.data(), threads);
@@ -129,20 +129,20 @@ void expect_same_in_place(const Trees& trees, const ForestSettings& settings, Th
   for (size_t i = room; i < nodes.size(); ++i) ASSERT_EQ(bytes(nodes[i]), bytes(untouched)) << "node " << i;
 }
 
-TEST(Forest, BuiltInPlaceTheyAreTheSameAndKeepToTheirRoom) {
+TEST(CellTrees, BuiltInPlaceTheyAreTheSameAndKeepToTheirRoom) {
   for (uint32_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
     Random random(5000 + seed);
     Camera camera = random_camera(random);
     BinningFrame fixture(random_lights(random, random.below(800), camera), camera, 1 + random.below(300),
                          1 + random.below(300));
-    const ForestSettings settings = random_forest(random);
+    const TreeSettings settings = random_trees(random);
     const Trees trees(fixture.frame, random_settings(random), settings);
     expect_same_in_place(trees, settings, *fixture.frame.threads);
   }
 }
 
-TEST(Forest, DepthFirstPlacesAreThoseOfAWalk) {
+TEST(CellTrees, DepthFirstPlacesAreThoseOfAWalk) {
   for (uint32_t height = 0; height <= 12; ++height) {
     std::vector<std::pair<uint32_t, uint32_t>> order;  // (level, index)
     auto visit = [&](auto& self, uint32_t level, uint32_t index) -> void {
@@ -178,13 +178,13 @@ FroxelSettings one_tile() {
 
 // Trees of a light more than a power of two of full leaves take the most room for their lights; with more
 // than 2048 leaves these get larger.
-TEST(Forest, TheLargestTreesForTheirLightsKeepToTheirRoom) {
+TEST(CellTrees, TheLargestTreesForTheirLightsKeepToTheirRoom) {
   for (uint32_t per_leaf : {1u, 3u, 8u, 64u})
     for (uint32_t full_leaves : {1u, 2u, 4u, 32u, 512u, 2048u, 4096u}) {
       const uint32_t count = per_leaf * full_leaves + 1;
       SCOPED_TRACE(count);
       BinningFrame fixture(lights_in_a_row(count), square_camera(), 64, 64);
-      ForestSettings settings;
+      TreeSettings settings;
       settings.threshold = infinity;
       settings.lights_per_leaf = per_leaf;
       settings.trim_padding = false;
@@ -197,13 +197,13 @@ TEST(Forest, TheLargestTreesForTheirLightsKeepToTheirRoom) {
     }
 }
 
-TEST(Forest, OneTileHoldsAsManyLightsAsAFrameHas) {
+TEST(CellTrees, OneTileHoldsAsManyLightsAsAFrameHas) {
   for (uint32_t count : {1u, 8u, 9u, 65535u, 65536u, 65537u, 262144u}) {
     BinningFrame fixture(lights_in_a_row(count), square_camera(), 64, 64);
     for (float threshold : {0.0f, 1.0f, infinity})
       for (uint32_t per_leaf : {1u, 8u, 64u})
         for (bool list_nodes : {false, true}) {
-          ForestSettings settings;
+          TreeSettings settings;
           settings.threshold = threshold;
           settings.lights_per_leaf = per_leaf;
           settings.list_nodes = list_nodes;
@@ -211,7 +211,7 @@ TEST(Forest, OneTileHoldsAsManyLightsAsAFrameHas) {
           uint64_t below = 0;
           for (const TreeNode& node : trees.nodes)
             if (tree_is_leaf(node)) below += tree_leaf_lights(node);
-          for (const gpu_data::TreeCell& cell : trees.forest.cells())
+          for (const gpu_data::TreeCell& cell : trees.cell_trees.cells())
             if (cell.end & ML_TREE_CELL_LIST) below += cell.end & ~ML_TREE_CELL_LIST;
           EXPECT_EQ(below, count);
           // Any one light is found at its own depth, and from a tree few others.
@@ -226,7 +226,7 @@ TEST(Forest, OneTileHoldsAsManyLightsAsAFrameHas) {
   }
 }
 
-TEST(Forest, LightsBeyondTheFarDepthAreSortedToo) {
+TEST(CellTrees, LightsBeyondTheFarDepthAreSortedToo) {
   std::vector<Light> lights(4000);
   for (size_t i = 0; i < lights.size(); ++i) {
     // One after the other in an order that is none of depth; the far depth is 100 m.
@@ -234,18 +234,18 @@ TEST(Forest, LightsBeyondTheFarDepthAreSortedToo) {
     lights[i].position = {0.1, 0.1, -depth}, lights[i].radius = 3;
   }
   BinningFrame fixture(lights, square_camera(), 64, 64);
-  ForestSettings settings;
+  TreeSettings settings;
   settings.threshold = infinity;
   Trees trees(fixture.frame, one_tile(), settings);
   ASSERT_EQ(trees.lists.entries().size(), lights.size());
   for (float depth : {106.0f, 140.0f, 183.0f}) EXPECT_LT(trees.walk(0, depth).size(), 400u) << depth;
 }
 
-TEST(Forest, PaddingIsNeverHit) {
+TEST(CellTrees, PaddingIsNeverHit) {
   Random random(3);
   Camera camera = random_camera(random);
   BinningFrame fixture(random_lights(random, 1000, camera), camera, 320, 180);
-  ForestSettings settings;
+  TreeSettings settings;
   settings.lights_per_leaf = 3;
   settings.threshold = infinity;
   size_t full = 0, trimmed = 0;
@@ -261,35 +261,35 @@ TEST(Forest, PaddingIsNeverHit) {
   EXPECT_LT(trimmed, full);
 }
 
-TEST(Forest, ThresholdChoosesListsAndTrees) {
+TEST(CellTrees, ThresholdChoosesListsAndTrees) {
   Random random(4);
   Camera camera = random_camera(random);
   BinningFrame fixture(random_lights(random, 3000, camera), camera, 320, 180);
-  ForestSettings settings;
+  TreeSettings settings;
   uint64_t trees_before = 0, cells = 0;
   for (float threshold : {0.0f, 0.25f, 0.5f, 1.0f, infinity}) {
     settings.threshold = threshold;
     Trees trees(fixture.frame, {}, settings);
     if (threshold == 0) {
-      EXPECT_EQ(trees.forest.tree_cells(), 0u);
-      cells = trees.forest.list_cells();
+      EXPECT_EQ(trees.cell_trees.tree_cells(), 0u);
+      cells = trees.cell_trees.list_cells();
     }
-    EXPECT_GE(trees.forest.tree_cells(), trees_before);
-    EXPECT_EQ(trees.forest.tree_cells() + trees.forest.list_cells(), cells);
-    trees_before = trees.forest.tree_cells();
+    EXPECT_GE(trees.cell_trees.tree_cells(), trees_before);
+    EXPECT_EQ(trees.cell_trees.tree_cells() + trees.cell_trees.list_cells(), cells);
+    trees_before = trees.cell_trees.tree_cells();
   }
   EXPECT_GT(trees_before, 0u);
 }
 
 // Shaders of the class without trees read no nodes.
-TEST(Forest, TilesWithNodesAreAClassOfTheirOwn) {
+TEST(CellTrees, TilesWithNodesAreAClassOfTheirOwn) {
   uint32_t with_nodes = 0, without = 0;
   for (uint32_t seed = 0; seed < 60; ++seed) {
     Random random(6000 + seed);
     Camera camera = random_camera(random);
     const std::vector<Light> lights = random_small_lights(random, random.below(600), camera);
     const FroxelSettings froxels = random_settings(random);
-    const ForestSettings settings = random_forest(random);
+    const TreeSettings settings = random_trees(random);
     for (unsigned threads : {1u, 3u}) {
       BinningFrame fixture(lights, camera, 200, 120, threads);
       TreePrepare prepare("test", froxels, settings);
@@ -302,7 +302,7 @@ TEST(Forest, TilesWithNodesAreAClassOfTheirOwn) {
       for (uint32_t tile = 0; tile < tiles; ++tile) {
         bool nodes = false;
         for (uint32_t cell = tile; cell < prepare.lists().grid().cells(); cell += tiles) {
-          const uint32_t end = prepare.forest().cells()[cell].end;
+          const uint32_t end = prepare.cell_trees().cells()[cell].end;
           nodes = nodes || (end != 0 && (end & ML_TREE_CELL_LIST) == 0);
         }
         ASSERT_EQ(classes.of_tile[tile], nodes ? 1 : 0) << "seed " << seed << ", tile " << tile;
@@ -314,7 +314,7 @@ TEST(Forest, TilesWithNodesAreAClassOfTheirOwn) {
   EXPECT_GT(without, 0u);
 }
 
-TEST(Forest, DoNotDependOnTheNumberOfThreads) {
+TEST(CellTrees, DoNotDependOnTheNumberOfThreads) {
   for (uint32_t count : {0u, 1u, 2047u, 65537u}) {
     Random random(count);
     Camera camera = random_camera(random);
@@ -333,7 +333,7 @@ TEST(Forest, DoNotDependOnTheNumberOfThreads) {
   }
 }
 
-TEST(Forest, AFrameWithFewerLightsLeavesNothingBehind) {
+TEST(CellTrees, AFrameWithFewerLightsLeavesNothingBehind) {
   Random random(5);
   Camera camera = random_camera(random);
   std::vector<Light> many = random_lights(random, 5000, camera), few(many.begin(), many.begin() + 10);

@@ -1,4 +1,4 @@
-// A forest of bounding interval trees, one for each tile or froxel, built bottom-up over lists of lights that
+// A cell_trees of bounding interval trees, one for each tile or froxel, built bottom-up over lists of lights that
 // are sorted by depth (Tiled Light Trees, sections 3.1 to 3.3).
 #pragma once
 
@@ -7,21 +7,21 @@
 #include <vector>
 
 #include "algorithms/froxels/froxel_lists.h"
-#include "algorithms/trees/forest_chunk.h"
+#include "algorithms/trees/tree_chunk.h"
 #include "harness/base/parallel.h"
 
 namespace ml {
 
-class Forest {
+class CellTrees {
  public:
   // Nodes that the lists' trees take at most.
-  static uint64_t room(const FroxelLists& lists, const ForestSettings& settings) {
-    return node_room(settings, lists.offsets());
+  static uint64_t capacity(const FroxelLists& lists, const TreeSettings& settings) {
+    return node_capacity(settings, lists.offsets());
   }
 
-  // With `in_place`, of room() elements, a single thread writes the nodes there; else they are in memory of
-  // the forest. copy_nodes() sees to it that they are there.
-  void build(const FroxelLists& lists, const ForestSettings& settings, Threads& threads,
+  // With `in_place`, of capacity() elements, a single thread writes the nodes there; else they are in memory of their
+  // own. copy_nodes() sees to it that they are there.
+  void build(const FroxelLists& lists, const TreeSettings& settings, Threads& threads,
              gpu_data::TreeNode* in_place = nullptr);
 
   std::span<const gpu_data::TreeCell> cells() const { return cells_; }
@@ -36,7 +36,7 @@ class Forest {
   void mark_node_tiles(std::span<uint8_t> tiles) const;
 
  private:
-  std::vector<ForestChunk> chunks_;
+  std::vector<TreeChunk> chunks_;
   std::vector<std::vector<gpu_data::TreeNode>> own_nodes_;  // of each chunk
   size_t chunk_count_ = 0;
   std::vector<FroxelGrid::DepthRange> cell_depths_;

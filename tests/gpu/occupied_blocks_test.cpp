@@ -1,5 +1,5 @@
 // Blocks of the picture in which something is seen.
-#include "harness/frame/seen_blocks.h"
+#include "harness/frame/occupied_blocks.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ class SeenBlocksTest : public DeviceTest {
   }
   static std::set<std::pair<uint32_t, uint32_t>> blocks_of(const DeviceFrame& frame) {
     std::set<std::pair<uint32_t, uint32_t>> blocks;
-    for (glm::uvec2 place : frame.seen_blocks().places())
+    for (glm::uvec2 place : frame.occupied_blocks().places())
       EXPECT_TRUE(blocks.emplace(place.x, place.y).second) << place.x << ", " << place.y << " twice";
     return blocks;
   }
@@ -60,7 +60,7 @@ TEST_F(SeenBlocksTest, OthersAreBlackWhateverWasThere) {
   frame.commands().write_image(words, frame.targets().result);
   frame.commands().submit();
   load(frame, camera_at({0, 10, 0}, {0, 60, -1}, width, height));
-  EXPECT_TRUE(frame.seen_blocks().places().empty());
+  EXPECT_TRUE(frame.occupied_blocks().places().empty());
   expect_black();
   // What is read of the g-buffer goes through the same picture.
   load(frame, camera_at({0, 10, 0}, {0, 0, -1}, width, height));

@@ -1,7 +1,7 @@
 // Compiled once for every instruction set; the best one is chosen at run time (Highway).
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "algorithms/trees/forest_chunk.cpp"
-#include "algorithms/trees/forest_chunk.h"
+#define HWY_TARGET_INCLUDE "algorithms/trees/tree_chunk.cpp"
+#include "algorithms/trees/tree_chunk.h"
 
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
@@ -246,8 +246,8 @@ HWY_INLINE ListRow write_lists(const uint32_t* offsets, uint32_t count, TreeCell
   return row;
 }
 
-void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
-                 std::span<const FroxelGrid::DepthRange> cell_depths, TreeCell* cells, ForestChunk& chunk) {
+void build_chunk(const FroxelLists& lists, const TreeSettings& settings,
+                 std::span<const FroxelGrid::DepthRange> cell_depths, TreeCell* cells, TreeChunk& chunk) {
   const uint32_t columns = lists.grid().columns, tiles = lists.grid().tiles();
   const uint32_t* offsets = lists.offsets().data();
   const std::span<const uint32_t> entries = lists.entries();
@@ -318,9 +318,9 @@ namespace ml::simd {
 
 HWY_EXPORT(build_chunk);
 
-void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
+void build_chunk(const FroxelLists& lists, const TreeSettings& settings,
                  std::span<const FroxelGrid::DepthRange> cell_depths, gpu_data::TreeCell* cells,
-                 ForestChunk& chunk) {
+                 TreeChunk& chunk) {
   HWY_DYNAMIC_DISPATCH(build_chunk)(lists, settings, cell_depths, cells, chunk);
 }
 

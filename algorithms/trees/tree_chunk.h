@@ -12,7 +12,7 @@
 
 namespace ml {
 
-struct ForestSettings {
+struct TreeSettings {
   uint32_t lights_per_leaf = 8;  // [1, 64]; raised where a tree would have more leaves than its fields hold
   // A cell of no more lights than this is a list, as are those whose lights are one leaf's: to walk a tree
   // costs about as much as to test so many lights.
@@ -32,9 +32,9 @@ struct ForestSettings {
   uint32_t short_list() const { return std::max(lights_per_leaf, list_lights); }
 };
 
-struct ForestChunk {
+struct TreeChunk {
   uint32_t first_cell = 0, end_cell = 0;
-  gpu_data::TreeNode* nodes = nullptr;  // room for node_room() of them
+  gpu_data::TreeNode* nodes = nullptr;  // room for node_capacity() of them
   size_t count = 0;                     // of nodes written
   uint64_t first_node = 0;              // of all nodes
   uint64_t list_cells = 0, tree_cells = 0;
@@ -48,9 +48,9 @@ struct ForestChunk {
 namespace simd {
 // Builds the cells of the chunk into cells[cell]; nodes are numbered by their place in chunk.nodes.
 // `cell_depths`: of each slice (cell_depth_extents()).
-void build_chunk(const FroxelLists& lists, const ForestSettings& settings,
+void build_chunk(const FroxelLists& lists, const TreeSettings& settings,
                  std::span<const FroxelGrid::DepthRange> cell_depths, gpu_data::TreeCell* cells,
-                 ForestChunk& chunk);
+                 TreeChunk& chunk);
 }  // namespace simd
 
 // Lights in a leaf of a tree over `lights` lights: as asked, or as many as the largest tree needs, in eights.
@@ -61,7 +61,7 @@ inline uint32_t leaf_size(uint32_t asked, uint32_t lights) {
 
 // Nodes that cells take at most; `offsets`: where their lists begin, and the end. A tree of u > 1 leaves has
 // more lights than u - 1 leaves hold, and with its padding less than 4 (u - 1) nodes.
-inline uint64_t node_room(const ForestSettings& settings, std::span<const uint32_t> offsets) {
+inline uint64_t node_capacity(const TreeSettings& settings, std::span<const uint32_t> offsets) {
   uint32_t in_long_lists = 0;
   for (size_t cell = 0; cell + 1 < offsets.size(); ++cell) {
     const uint32_t lights = offsets[cell + 1] - offsets[cell];

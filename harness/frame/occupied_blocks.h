@@ -13,9 +13,9 @@
 
 namespace ml {
 
-class SeenBlocks {
+class OccupiedBlocks {
  public:
-  SeenBlocks(gpu::Device& device, uint32_t width, uint32_t height);
+  OccupiedBlocks(gpu::Device& device, uint32_t width, uint32_t height);
 
   // Records the search behind the g-buffer; `bindings` has its pictures.
   void record(gpu::Commands& commands, const gpu::Bindings& bindings);

@@ -1,10 +1,10 @@
-#include "harness/frame/seen_blocks.h"
+#include "harness/frame/occupied_blocks.h"
 
 #include <bit>
 #include <cstring>
 
 #include "shaders/shared/contributing.h"
-#include "spirv/seen_blocks_comp.h"
+#include "spirv/occupied_blocks_comp.h"
 
 namespace ml {
 namespace {
@@ -25,17 +25,17 @@ std::vector<uint32_t> order_of_rows(uint32_t count, bool spread) {
 
 }  // namespace
 
-SeenBlocks::SeenBlocks(gpu::Device& device, uint32_t width, uint32_t height)
+OccupiedBlocks::OccupiedBlocks(gpu::Device& device, uint32_t width, uint32_t height)
     : columns_((width + ML_BLOCK - 1) / ML_BLOCK),
       rows_(order_of_rows((height + ML_BLOCK - 1) / ML_BLOCK, device.info().is_software())),
-      program_(device, seen_blocks_comp, "seen blocks"),
+      program_(device, occupied_blocks_comp, "occupied blocks"),
       found_(device, columns_ * rows_.size() * sizeof(uint32_t), gpu::MemoryKind::device, "seen blocks"),
       readback_(device, found_.bytes(), gpu::MemoryKind::readback, "seen blocks, read back"),
       list_(device, "list of seen blocks") {
   list_.map(0);
 }
 
-void SeenBlocks::record(gpu::Commands& commands, const gpu::Bindings& bindings) {
+void OccupiedBlocks::record(gpu::Commands& commands, const gpu::Bindings& bindings) {
   gpu::Bindings all = bindings;
   all.emplace_back("Found", found_);
   commands.dispatch(program_, all, std::span<const std::byte>{}, columns_,
@@ -43,7 +43,7 @@ void SeenBlocks::record(gpu::Commands& commands, const gpu::Bindings& bindings) 
   commands.read_buffer(found_, found_.bytes(), readback_);
 }
 
-void SeenBlocks::read() {
+void OccupiedBlocks::read() {
   const auto* found = reinterpret_cast<const uint32_t*>(readback_.mapped().data());
   places_.clear();
   for (uint32_t row : rows_)
