@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
+#include "harness/base/check.h"
 #include "harness/base/error.h"
 
 namespace ml {
@@ -62,7 +62,7 @@ bool fits(const ParameterInfo& info, const ParameterValue& value) {
 }
 
 ParameterInfo checked(ParameterInfo info) {
-  assert(fits(info, info.fallback));
+  ML_CHECK(fits(info, info.fallback));
   return info;
 }
 
@@ -71,7 +71,8 @@ ParameterInfo checked(ParameterInfo info) {
 ParameterInfo ParameterInfo::integer(std::string name, int64_t fallback, int64_t minimum, int64_t maximum,
                                      std::string help) {
   // The range is kept as double: whole numbers beyond 2^53 would not be.
-  assert(minimum >= -(int64_t{1} << 53) && maximum <= (int64_t{1} << 53));
+  ML_CHECK_GE(minimum, -(int64_t{1} << 53));
+  ML_CHECK_LE(maximum, int64_t{1} << 53);
   return checked({std::move(name),
                   std::move(help),
                   fallback,

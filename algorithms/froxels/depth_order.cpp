@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 
 #include "algorithms/froxels/binning.h"
+#include "harness/base/check.h"
 
 namespace ml {
 
@@ -42,7 +42,7 @@ void DepthOrder::sort(const float* z, std::span<const PlaceRun> runs, const Dept
     count_ += run.count;
     end = std::max(end, run.first + run.count);
   }
-  assert(end <= size_t{1} << 24);
+  ML_CHECK_LE(end, size_t{1} << 24);
   reserve_padded(keys_, end);
   reserve_padded(items_, count_);
   reserve_padded(places_, count_);

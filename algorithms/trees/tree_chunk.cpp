@@ -9,10 +9,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <limits>
+
+#include "harness/base/check.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ml::simd::HWY_NAMESPACE {
@@ -31,7 +32,8 @@ constexpr Signed ds;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 HWY_INLINE uint32_t packed(bool leaf, uint32_t lights, uint32_t skip) {
-  assert(lights <= ML_TREE_MAX_LEAF_LIGHTS && skip < 1u << 15);
+  ML_DCHECK_LE(lights, ML_TREE_MAX_LEAF_LIGHTS);
+  ML_DCHECK_LT(skip, 1u << 15);
   return (leaf ? ML_TREE_LEAF : 0) | lights << ML_TREE_COUNT_SHIFT | skip << ML_TREE_SKIP_SHIFT;
 }
 
@@ -192,7 +194,7 @@ HWY_INLINE size_t write_tree(DepthReach* bounds, uint32_t lights, uint32_t first
   uint32_t used = (lights + per_leaf - 1) / per_leaf;
   const uint32_t leaves = std::bit_ceil(used);
   const auto height = static_cast<uint32_t>(std::countr_zero(leaves));
-  assert(leaves <= ML_TREE_MAX_LEAVES);
+  ML_DCHECK_LE(leaves, ML_TREE_MAX_LEAVES);
   const size_t trimmed = depth_first_place(height, height, used - 1) + 1;
   for (uint32_t leaf = 0; leaf < used; ++leaf)
     nodes[depth_first_place(height, height, leaf)] =

@@ -4,7 +4,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <cassert>
+#include "harness/base/check.h"
 
 namespace ml {
 
@@ -17,7 +17,8 @@ struct Threads::Arena {
 };
 
 Threads::Threads(unsigned count) : count_(count) {
-  assert(count >= 1 && count <= 256);
+  ML_CHECK_GE(count, 1u);
+  ML_CHECK_LE(count, 256u);
   if (count > 1) arena_ = std::make_unique<Arena>(count);
 }
 

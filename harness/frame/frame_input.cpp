@@ -1,9 +1,10 @@
 #include "harness/frame/frame_input.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
+
+#include "harness/base/check.h"
 
 namespace ml {
 namespace {
@@ -87,7 +88,7 @@ gpu_data::ViewData view_data(const Camera& camera, uint32_t width, uint32_t heig
 }
 
 void FrameLightStorage::fill(const std::vector<Light>& lights, const glm::vec3& camera, uint32_t shapes) {
-  assert(lights.size() <= gpu_data::uint{ML_LIGHT_ID_MASK} + 1);
+  ML_CHECK_LE(lights.size(), gpu_data::uint{ML_LIGHT_ID_MASK} + 1);
   count_ = lights.size();
   for (std::vector<float>* column : {&x_, &y_, &z_, &radius_}) column->resize(count_ + padding);
   core_.resize(count_);
@@ -140,7 +141,7 @@ FrameSequence::FrameSequence(const Scene& scene, const LightSet& lights, const C
 }
 
 const FrameInput& FrameSequence::at(uint32_t index) {
-  assert(index < frames_);
+  ML_CHECK_LT(index, frames_);
   camera_ = path_.sample(index, frames_, width_, height_, scene_.near, scene_.far);
   set_.at(index, frames_, path_.duration(), active_, &identity_);
   storage_.fill(active_, camera_.position, shapes_);

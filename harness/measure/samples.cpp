@@ -1,16 +1,17 @@
 #include "harness/measure/samples.h"
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
 #include <utility>
 
+#include "harness/base/check.h"
 #include "harness/base/random.h"
 
 namespace ml {
 
 void SampleTable::set(std::string_view name, uint32_t repeat, uint32_t frame, double milliseconds) {
-  assert(repeat < repeats_ && frame < frames_);
+  ML_CHECK_LT(repeat, repeats_);
+  ML_CHECK_LT(frame, frames_);
   auto found = tables_.find(name);
   if (found == tables_.end()) {
     std::vector<std::vector<double>> zeros(repeats_, std::vector<double>(frames_, 0.0));

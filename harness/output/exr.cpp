@@ -10,10 +10,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cstring>
 #include <stdexcept>
 
+#include "harness/base/check.h"
 #include "harness/base/error.h"
 #include "harness/base/file.h"
 #include "harness/output/picture.h"
@@ -114,9 +114,9 @@ Picture::Picture(uint32_t w, uint32_t h, std::vector<std::string> names)
 
 void write_exr(const Picture& picture, const std::filesystem::path& file,
                const std::vector<std::pair<std::string, std::string>>& attributes) {
-  assert(picture.width > 0 && picture.height > 0 && !picture.channels.empty());
-  assert(picture.data.size() ==
-         static_cast<size_t>(picture.width) * picture.height * picture.channels.size());
+  ML_CHECK(picture.width > 0 && picture.height > 0 && !picture.channels.empty());
+  ML_CHECK_EQ(picture.data.size(),
+              static_cast<size_t>(picture.width) * picture.height * picture.channels.size());
   MemoryOutput stream;
   try {
     Imf::Header header(static_cast<int>(picture.width), static_cast<int>(picture.height));

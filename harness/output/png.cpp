@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cstdlib>
 #include <span>
 #include <string_view>
 
+#include "harness/base/check.h"
 #include "harness/base/error.h"
 #include "harness/base/file.h"
 #include "harness/output/picture.h"
@@ -69,7 +69,8 @@ Bytes filtered_rows(uint32_t width, uint32_t height, const Bytes& rgb) {
 
 void write_png(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgb,
                const std::filesystem::path& file, const std::string& description) {
-  assert(width > 0 && height > 0 && rgb.size() == size_t{3} * width * height);
+  ML_CHECK(width > 0 && height > 0);
+  ML_CHECK_EQ(rgb.size(), size_t{3} * width * height);
   Bytes rows = filtered_rows(width, height, rgb);
   uLongf packed_size = compressBound(static_cast<uLong>(rows.size()));
   Bytes packed(packed_size);

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
+
+#include "harness/base/check.h"
 
 namespace ml {
 namespace {
@@ -79,7 +80,7 @@ std::string whole_table(const TextTable& table) {
 }
 
 std::string folded_table(const TextTable& table, size_t width) {
-  assert(table.grouped < table.labels || table.labels == 0);
+  ML_CHECK(table.grouped < table.labels || table.labels == 0);
   const std::vector<size_t> widths = widths_of(table);
   std::vector<size_t> columns(widths.size());
   for (size_t c = 0; c < columns.size(); ++c) columns[c] = c;

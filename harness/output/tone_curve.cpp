@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cfloat>
 #include <cmath>
 
+#include "harness/base/check.h"
 #include "harness/output/color_scale.h"
 #include "harness/output/picture.h"
 
@@ -47,7 +47,9 @@ std::string ToneCurve::describe(float used_exposure) const {
 }
 
 float write_preview_png(const Picture& rgb, const std::filesystem::path& file, const ToneCurve& curve) {
-  assert(!rgb.channels.empty() && curve.white > 0 && curve.exposure >= 0);
+  ML_CHECK(!rgb.channels.empty());
+  ML_CHECK_GT(curve.white, 0.0f);
+  ML_CHECK_GE(curve.exposure, 0.0f);
   float exposure = curve.exposure > 0 ? curve.exposure : automatic_exposure(rgb, curve.white);
   double white_squared = double{curve.white} * curve.white;
   auto tone = [&](double value) {

@@ -1,8 +1,9 @@
 #include "harness/scene/camera.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "harness/base/check.h"
 
 namespace ml {
 namespace {
@@ -36,7 +37,8 @@ glm::dmat4 view_of(const CameraNode& carrier, double time) {
 }  // namespace
 
 Projection Projection::perspective(float vertical_fov, float aspect, float near, float far) {
-  assert(vertical_fov > 0 && vertical_fov < 3.1415927f && aspect > 0 && near > 0 && far > near);
+  ML_CHECK(vertical_fov > 0 && vertical_fov < 3.1415927f && aspect > 0 && near > 0);
+  ML_CHECK_GT(far, near);
   double half = std::tan(0.5 * static_cast<double>(vertical_fov));
   auto top = static_cast<float>(half);
   auto right = static_cast<float>(half * static_cast<double>(aspect));
@@ -44,7 +46,8 @@ Projection Projection::perspective(float vertical_fov, float aspect, float near,
 }
 
 Projection Projection::orthographic(float half_width, float half_height, float near, float far) {
-  assert(half_width > 0 && half_height > 0 && near > 0 && far > near);
+  ML_CHECK(half_width > 0 && half_height > 0 && near > 0);
+  ML_CHECK_GT(far, near);
   return {ProjectionKind::orthographic, -half_width, half_width, -half_height, half_height, near, far};
 }
 
@@ -82,7 +85,8 @@ Camera Camera::of_node(const glm::dmat4& world, const Projection& projection) {
 
 Camera CameraPath::sample(uint32_t frame, uint32_t frames, uint32_t width, uint32_t height, float near,
                           float far) const {
-  assert(!keys.empty() && frames > 0 && frame < frames && width > 0 && height > 0);
+  ML_CHECK(!keys.empty() && frames > 0 && width > 0 && height > 0);
+  ML_CHECK_LT(frame, frames);
   float aspect = static_cast<float>(width) / static_cast<float>(height);
   Projection window = projection;
   if (has_projection) {

@@ -1,10 +1,10 @@
 #include "harness/scene/mesh_builder.h"
 
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
+#include "harness/base/check.h"
 #include "harness/base/random.h"
 #include "harness/scene/turn.h"
 
@@ -64,7 +64,7 @@ void MeshBuilder::quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
 }
 
 void MeshBuilder::box(const glm::dvec3& lo, const glm::dvec3& hi, uint32_t material, unsigned faces) {
-  assert(lo.x < hi.x && lo.y < hi.y && lo.z < hi.z);
+  ML_CHECK(lo.x < hi.x && lo.y < hi.y && lo.z < hi.z);
   std::array<glm::dvec3, 8> corners;
   for (size_t i = 0; i < 8; ++i) corners[i] = {i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z};
   block(corners, material, faces);

@@ -1,8 +1,9 @@
 #include "harness/scene/node_motion.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "harness/base/check.h"
 
 namespace ml {
 namespace {
@@ -75,7 +76,7 @@ glm::dvec4 MotionChannel::at(double time) const {
 }
 
 size_t NodeMotions::add(MotionNode node) {
-  assert(node.parent < static_cast<int>(nodes_.size()));
+  ML_CHECK_LT(node.parent, static_cast<int>(nodes_.size()));
   Entry entry;
   entry.moves = !node.channels.empty() || (node.parent >= 0 && moves(static_cast<size_t>(node.parent)));
   for (const MotionChannel& channel : node.channels) {

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <numeric>
+
+#include "harness/base/check.h"
 
 namespace ml {
 namespace {
@@ -183,7 +184,7 @@ std::optional<RayHit> RayCaster::nearest(const glm::dvec3& origin, const glm::dv
         children[side] = {node.first + side, entry(child.min, child.max, origin, inverse, limit)};
       }
       if (children[0].distance < children[1].distance) std::swap(children[0], children[1]);
-      assert(top + 2 <= kStackSize);
+      ML_DCHECK_LE(top + 2, kStackSize);
       for (const Entry& child : children) {
         if (child.distance < std::numeric_limits<double>::infinity()) stack[top++] = child;
       }

@@ -81,7 +81,7 @@ TEST(ResultJson, ReadsBackWhatWasWrittenToTheLastBit) {
 
 // Keys that came when there were results without them.
 const std::set<std::string> later_keys{"overlap", "light_account", "notes", "frames_without_surface",
-                                       "invalid", "invalid_note"};
+                                       "invalid", "invalid_note",  "passes"};
 
 // What is said of the level comes back, and results of before it was said are read.
 TEST(ResultJson, KnowsResultsWithAndWithoutBookkeeping) {
