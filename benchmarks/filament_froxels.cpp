@@ -171,7 +171,7 @@ void clustered_prepare(benchmark::State& state, int number, int radius) {
   FrameInput frame;
   frame.view = view_data(camera(), picture_width, picture_height, static_cast<uint32_t>(lights.size()));
   frame.threads = &threads;
-  PlainMemory memory;
+  HeapMemory memory;
   Spans spans;
   double cpu = 0;
   for (auto _ : state)

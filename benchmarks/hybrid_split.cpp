@@ -22,7 +22,7 @@ constexpr std::array<Stage, 5> stages{{{"bin", 50}, {"build", 25}, {"sort", 12},
 void print_row(const char* lights_name, MakeInput make, uint32_t lights, unsigned threads) {
   auto input = make(lights, threads);
   TreePrepare prepare("hybrid", hybrid_froxels(), {});
-  PlainMemory memory;
+  HeapMemory memory;
   std::array<std::vector<double>, stages.size()> samples;
   constexpr int warm_up = 5, frames = 51;
   for (int frame = 0; frame < warm_up + frames; ++frame) {

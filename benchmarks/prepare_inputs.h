@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "algorithms/froxels/binning.h"
+#include "algorithms/heap_memory.h"
 #include "algorithms/vector_target.h"
 #include "harness/base/error.h"
 #include "harness/base/random.h"
@@ -83,19 +84,6 @@ inline std::unique_ptr<Input> citadel_input(uint32_t count, unsigned threads) {
   static const Scene scene = procedural("citadel");
   return level_input(scene, count, threads, 30);
 }
-
-class PlainMemory final : public UploadMemory {
- public:
-  std::span<std::byte> map(uint32_t slot, size_t bytes) override {
-    if (slots_[slot].size() < bytes) slots_[slot].resize(bytes + bytes / 4);
-    return std::span(slots_[slot]).first(bytes);
-  }
-  size_t limit() const override { return size_t{1} << 30; }
-  bool cached(uint32_t) const override { return true; }
-
- private:
-  std::array<std::vector<std::byte>, 8> slots_;
-};
 
 inline void report(benchmark::State& state, size_t lights, size_t entries) {
   state.counters["ns_per_light"] =

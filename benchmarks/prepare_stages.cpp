@@ -22,7 +22,7 @@ double seconds_of(const Spans& spans, const std::string& stage) {
 void fast(benchmark::State& state, const std::string& stage, unsigned threads) {
   auto input = view_input(static_cast<uint32_t>(state.range(0)), threads);
   TreePrepare prepare("hybrid", hybrid_froxels(), {});
-  PlainMemory memory;
+  HeapMemory memory;
   Spans spans;
   for (auto _ : state) {
     spans.clear();
@@ -42,7 +42,7 @@ void scalar(benchmark::State& state, const std::string& stage) {
   auto input = view_input(static_cast<uint32_t>(state.range(0)), 1);
   ReferenceLists lists;
   ReferenceTrees cell_trees;
-  PlainMemory memory;
+  HeapMemory memory;
   Spans spans;
   for (auto _ : state) {
     spans.clear();

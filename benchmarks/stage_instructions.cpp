@@ -27,7 +27,7 @@ void hybrid() {
   ReferenceLists lists;
   ReferenceTrees cell_trees;
   TreePrepare prepare("hybrid", hybrid_froxels(), {});
-  PlainMemory memory;
+  HeapMemory memory;
   Spans spans;
   for (bool warm_up : {true, false}) {
     lists.build(input->frame, hybrid_froxels(), spans);
@@ -98,7 +98,7 @@ void list_rows() {
   settings.order = FroxelSettings::Order::index;
   ReferenceLists reference;
   FroxelLists lists("clustered");
-  PlainMemory memory;
+  HeapMemory memory;
   Spans spans;
   for (bool warm_up : {true, false}) {
     reference.build(input.frame, settings, spans);

@@ -47,7 +47,7 @@ void prepare_frames(benchmark::State& state, MakeInput make, unsigned threads, c
                     const TreeSettings& trees) {
   auto input = make(static_cast<uint32_t>(state.range(0)), threads);
   TreePrepare prepare("hybrid", froxels, trees);
-  PlainMemory memory;
+  HeapMemory memory;
   Spans spans;
   prepare.prepare(input->frame, memory, spans);
   spans.clear();

@@ -76,7 +76,7 @@ class Row {
   FroxelLists lists_{"clustered"};
   ReferenceLists reference_lists_;
   ReferenceTrees reference_trees_;
-  PlainMemory memory_;
+  HeapMemory memory_;
   std::array<double, stages.size()> least_{};
 };
 

@@ -38,7 +38,7 @@ void prepare(benchmark::State& state, const Subject& subject, MakeInput make, un
   for (const auto& [name, value] : subject.parameters)
     parameters.set(entry.parameters, name, value, "benchmark");
   auto algorithm = entry.create(parameters);
-  PlainMemory memory;
+  HeapMemory memory;
   Spans spans;
   // The first frame is not like the others: buffers grow, trees are built.
   algorithm->prepare(input->frame, memory, spans);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/heap_memory.h"
 #include "harness/accuracy/image_metrics.h"
 #include "harness/base/error.h"
 #include "harness/base/random.h"
@@ -38,37 +39,20 @@ const AlgorithmEntry& entry_that(Predicate predicate) {
   throw std::logic_error("the registry has no reference algorithm");
 }
 
-// Upload memory on the heap, for comparing what different numbers of threads write.
-class HeapMemory final : public UploadMemory {
- public:
-  explicit HeapMemory(size_t limit) : limit_(limit) {}
-  std::span<std::byte> map(uint32_t slot, size_t bytes) override {
-    if (slots_.size() <= slot) slots_.resize(slot + 1);
-    slots_[slot].assign(bytes, std::byte{0});
-    return slots_[slot];
-  }
-  size_t limit() const override { return limit_; }
-  const std::vector<std::vector<std::byte>>& slots() const { return slots_; }
-
- private:
-  size_t limit_;
-  std::vector<std::vector<std::byte>> slots_;
-};
-
 bool same_for_all_thread_counts(const AlgorithmEntry& entry, const Parameters& parameters,
                                 const FrameInput& input, size_t limit) {
-  std::optional<std::vector<std::vector<std::byte>>> first;
+  std::optional<std::vector<std::byte>> first;
   for (unsigned count : {1u, 2u, 7u}) {
     Threads threads(count);
     FrameInput copy = input;
     copy.threads = &threads;
     auto algorithm = entry.create(parameters);
-    HeapMemory memory(limit);
+    HeapMemory memory(true, limit);
     Spans spans;
     algorithm->prepare(copy, memory, spans);
     if (!first)
-      first = memory.slots();
-    else if (*first != memory.slots())
+      first = memory.all();
+    else if (*first != memory.all())
       return false;
   }
   return true;

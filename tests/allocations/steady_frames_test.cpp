@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "algorithms/algorithm.h"
+#include "algorithms/heap_memory.h"
 #include "harness/frame/frame_input.h"
 #include "heap_watch.h"
 #include "scenes/load_scene.h"
-#include "tests/unit/algorithms/plain_memory.h"
 
 namespace ml {
 namespace {
@@ -109,7 +109,7 @@ class Lap {
  private:
   Threads threads_;
   FrameSequence sequence_;
-  test::PlainMemory memory_;
+  HeapMemory memory_;
   Spans spans_;
 };
 

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 
+#include "algorithms/heap_memory.h"
 #include "harness/bench/counting.h"
 #include "harness/bench/workload.h"
 #include "harness/config/config.h"
@@ -58,19 +60,12 @@ TEST_P(FrustumList, LosesNoLight) {
   EXPECT_EQ(device.validation_messages(), std::vector<std::string>{});
 }
 
-// Memory without a device, as unit tests and benchmarks of prepare() have it.
-class PlainMemory final : public UploadMemory {
- public:
-  std::span<std::byte> map(uint32_t, size_t bytes) override {
-    words_.resize((bytes + 3) / 4);
-    return std::as_writable_bytes(std::span(words_)).first(bytes);
-  }
-  size_t limit() const override { return size_t{1} << 27; }
-  const std::vector<uint32_t>& words() const { return words_; }
-
- private:
-  std::vector<uint32_t> words_;
-};
+std::vector<uint32_t> words(const HeapMemory& memory) {
+  const std::span<const std::byte> bytes = memory.slot(0);
+  std::vector<uint32_t> list(bytes.size() / sizeof(uint32_t));
+  std::memcpy(list.data(), bytes.data(), list.size() * sizeof(uint32_t));
+  return list;
+}
 
 TEST(FrustumListPrepare, SidesOnlyShortenTheList) {
   const Config config = canyon();
@@ -80,12 +75,14 @@ TEST(FrustumListPrepare, SidesOnlyShortenTheList) {
   Spans spans;
   for (uint32_t index = 0; index < workload.frames().frames(); ++index) {
     const FrameInput& input = workload.frames().at(index);
-    PlainMemory few, many;
+    HeapMemory few, many;
     culled->prepare(input, few, spans);
     kept->prepare(input, many, spans);
-    const std::vector<uint32_t> short_list(few.words().begin() + 1, few.words().end());
-    const std::vector<uint32_t> long_list(many.words().begin() + 1, many.words().end());
-    EXPECT_EQ(few.words()[0], short_list.size());
+    // The length stands before the list.
+    const std::vector<uint32_t> fewer = words(few), more = words(many);
+    const std::vector<uint32_t> short_list(fewer.begin() + 1, fewer.end());
+    const std::vector<uint32_t> long_list(more.begin() + 1, more.end());
+    EXPECT_EQ(fewer[0], short_list.size());
     EXPECT_LT(short_list.size(), long_list.size());
     EXPECT_LE(long_list.size(), input.lights.count());
     EXPECT_TRUE(std::includes(long_list.begin(), long_list.end(), short_list.begin(), short_list.end()));

@@ -7,10 +7,10 @@
 #include <set>
 
 #include "algorithms/froxels/grid_data.h"
+#include "algorithms/heap_memory.h"
 #include "algorithms/trees/tree_chunk.h"
 #include "shaders/shared/pixel_groups.h"
 #include "tests/hard_cases/hard_cases.h"
-#include "tests/unit/algorithms/plain_memory.h"
 
 namespace ml::test {
 namespace {
@@ -22,7 +22,7 @@ constexpr uint32_t width = 61, height = 45;
 
 // Slots of algorithms/trees/tree_prepare.cpp.
 struct Upload {
-  PlainMemory memory;
+  HeapMemory memory;
   gpu_data::FroxelGridData grid() const { return reinterpret_cast<const gpu_data::FroxelGridData&>(*at(0)); }
   const TreeCell* cells() const { return reinterpret_cast<const TreeCell*>(at(1)); }
   const TreeNode* nodes() const { return reinterpret_cast<const TreeNode*>(at(2)); }

@@ -10,10 +10,10 @@
 #include <limits>
 #include <vector>
 
+#include "algorithms/heap_memory.h"
 #include "algorithms/trees/reference_trees.h"
 #include "algorithms/trees/tree_prepare.h"
 #include "binning_cases.h"
-#include "plain_memory.h"
 
 namespace ml {
 namespace {
@@ -293,7 +293,7 @@ TEST(CellTrees, TilesWithNodesAreAClassOfTheirOwn) {
     for (unsigned threads : {1u, 3u}) {
       BinningFrame fixture(lights, camera, 200, 120, threads);
       TreePrepare prepare("test", froxels, settings);
-      PlainMemory memory;
+      HeapMemory memory;
       Spans spans;
       prepare.prepare(fixture.frame, memory, spans);
       const TileClasses classes = prepare.tile_classes();
@@ -323,7 +323,7 @@ TEST(CellTrees, DoNotDependOnTheNumberOfThreads) {
     for (unsigned threads : {1u, 2u, 7u}) {
       BinningFrame fixture(lights, camera, 640, 360, threads);
       TreePrepare prepare("test", {}, {});
-      PlainMemory memory;
+      HeapMemory memory;
       Spans spans;
       prepare.prepare(fixture.frame, memory, spans);
       prepare.prepare(fixture.frame, memory, spans);
@@ -339,7 +339,7 @@ TEST(CellTrees, AFrameWithFewerLightsLeavesNothingBehind) {
   std::vector<Light> many = random_lights(random, 5000, camera), few(many.begin(), many.begin() + 10);
   BinningFrame large(many, camera, 640, 360), small(few, camera, 64, 64);
   TreePrepare reused("test", {}, {}), fresh("test", {}, {});
-  PlainMemory reused_memory, fresh_memory(false);
+  HeapMemory reused_memory, fresh_memory(false);
   Spans spans;
   reused.prepare(large.frame, reused_memory, spans);
   reused.prepare(small.frame, reused_memory, spans);

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "algorithms/froxels/reference_lists.h"
+#include "algorithms/heap_memory.h"
 #include "binning_cases.h"
 #include "harness/base/error.h"
-#include "plain_memory.h"
 
 namespace ml {
 namespace {
@@ -90,7 +90,7 @@ TEST(FroxelLists, AreTheSameWhereTheyAreBuiltInUploadMemory) {
     const FroxelSettings settings = random_settings(random);
     FroxelLists own{"clustered"}, in_place{"clustered"}, staged{"clustered"};
     Spans spans;
-    PlainMemory cached, uncached{false};
+    HeapMemory cached, uncached{false};
     own.build(fixture.frame, settings, no_limit, spans);
     in_place.build(fixture.frame, settings, cached, 0, spans);
     staged.build(fixture.frame, settings, uncached, 0, spans);

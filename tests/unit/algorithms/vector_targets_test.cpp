@@ -7,11 +7,11 @@
 
 #include "algorithms/froxels/ball_test.h"
 #include "algorithms/froxels/reference_lists.h"
+#include "algorithms/heap_memory.h"
 #include "algorithms/trees/reference_trees.h"
 #include "algorithms/vector_target.h"
 #include "binning_cases.h"
 #include "harness/base/error.h"
-#include "plain_memory.h"
 
 namespace ml {
 namespace {
