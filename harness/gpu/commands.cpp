@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 
+#include "harness/base/check.h"
 #include "harness/gpu/commands_impl.h"
 
 namespace ml::gpu {
@@ -153,7 +153,7 @@ void Commands::transfer(const UploadBuffer& buffer) {
 
 void Commands::read_image(const Image& image, const Buffer& into) {
   Impl& c = *impl_;
-  assert(into.bytes() >= image.bytes());
+  ML_CHECK_GE(into.bytes(), image.bytes());
   c.to_layout(image, vk::ImageLayout::eTransferSrcOptimal);
   vk::BufferImageCopy region(0, 0, 0, {image.impl().aspect, 0, 0, 1}, {}, {image.width(), image.height(), 1});
   c.now().copyImageToBuffer(*image.impl().image, vk::ImageLayout::eTransferSrcOptimal, *into.impl().buffer,
@@ -163,7 +163,7 @@ void Commands::read_image(const Image& image, const Buffer& into) {
 
 void Commands::write_image(const Buffer& from, const Image& image) {
   Impl& c = *impl_;
-  assert(from.bytes() >= image.bytes());
+  ML_CHECK_GE(from.bytes(), image.bytes());
   c.to_layout(image, vk::ImageLayout::eTransferDstOptimal);
   std::vector<vk::BufferImageCopy> regions;
   vk::DeviceSize offset = 0;
@@ -179,7 +179,8 @@ void Commands::write_image(const Buffer& from, const Image& image) {
 }
 
 void Commands::read_buffer(const Buffer& buffer, size_t bytes, const Buffer& into) {
-  assert(bytes <= buffer.bytes() && bytes <= into.bytes());
+  ML_CHECK_LE(bytes, buffer.bytes());
+  ML_CHECK_LE(bytes, into.bytes());
   if (bytes == 0) return;
   impl_->now().copyBuffer(*buffer.impl().buffer, *into.impl().buffer, vk::BufferCopy(0, 0, bytes));
   impl_->pass_done();

@@ -61,6 +61,7 @@ class Commands {
   Commands(const Commands&) = delete;
   Commands& operator=(const Commands&) = delete;
 
+  // Passes are recorded between begin() and submit(); out of turn each is a std::logic_error.
   void begin(Timing timing);
   // Submits, waits for the fence and reads the stamps. Throws SystemError when the device is lost.
   SubmissionTimes submit();
@@ -89,6 +90,7 @@ class Commands {
 
   void clear(const Image& image);  // all bits 0
   void fill(const Buffer& buffer, uint32_t word);
+  // Copies; what does not fit is a std::logic_error.
   void transfer(const UploadBuffer& buffer);                 // to the device-local twin, where there is one
   void read_image(const Image& image, const Buffer& into);   // tightly packed rows
   void write_image(const Buffer& from, const Image& image);  // all levels, one behind the other

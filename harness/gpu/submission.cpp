@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 
+#include "harness/base/check.h"
 #include "harness/gpu/commands_impl.h"
 
 namespace ml::gpu {
@@ -67,7 +67,6 @@ void Commands::Impl::barrier(vk::PipelineStageFlags2 after, vk::AccessFlags2 acc
 // and that keeps a span's work inside it everywhere else. Each queue has its own; the other goes on.
 void Commands::Impl::stamp() {
   const auto number = static_cast<uint32_t>(stamp_parts.size());
-  assert(number < max_stamps);
   barrier();
   now().writeTimestamp2(all_stages, *stamps, number);
   barrier();
@@ -110,7 +109,7 @@ Commands::~Commands() = default;
 
 void Commands::begin(Timing timing) {
   Impl& c = *impl_;
-  assert(!c.recording);
+  ML_CHECK(!c.recording);
   c.pool.reset();
   if (*c.second_pool) c.second_pool.reset();
   c.sets.reset();
@@ -163,7 +162,7 @@ void Commands::Impl::submit_parts() {
 
 SubmissionTimes Commands::submit() {
   Impl& c = *impl_;
-  assert(c.recording);
+  ML_CHECK(c.recording);
   if (c.timed()) c.stamp();
   c.barrier(vk::PipelineStageFlagBits2::eHost, vk::AccessFlagBits2::eHostRead);
   c.of(Part::before).end();
@@ -206,6 +205,8 @@ SubmissionTimes Commands::submit() {
 Commands::Span Commands::span(std::string_view name) {
   Impl& c = *impl_;
   if (c.timed() && c.timing == Timing::stages) {
+    // Room for this span's two stamps and the submission's last: a span that ends must not throw.
+    ML_CHECK_LE(c.stamp_parts.size() + 3, max_stamps);
     c.spans.push_back({std::string(name), c.stamp_parts.size()});
     c.stamp();
   }
@@ -219,7 +220,7 @@ void Commands::end_span() {
 
 Commands::Unordered Commands::unordered() {
   Impl& c = *impl_;
-  assert(!c.unordered);
+  ML_CHECK(!c.unordered);
   c.unordered = true;
   std::lock_guard lock(c.device.log.mutex);
   c.device.log.writes_apart = true;
