@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/gpu/debug_names.h"
 #include "harness/gpu/memory.h"
 
 namespace ml::gpu {
@@ -34,6 +35,7 @@ Buffer::Buffer(Device& owner, size_t bytes, MemoryKind kind, const std::string& 
   impl_->buffer = vk::raii::Buffer(
       device.device,
       vk::BufferCreateInfo({}, bytes, usage, sharing.mode, sharing.count, sharing.families.data()));
+  set_name(device, impl_->buffer, name);
   vk::MemoryRequirements needs = impl_->buffer.getMemoryRequirements();
   Allocation found = allocate(device, needs, kind, name);
   const vk::MemoryPropertyFlags properties = device.memory.memoryTypes[found.type].propertyFlags;

@@ -47,6 +47,7 @@ struct Device::Impl {
   DeviceInfo info;
   DeviceLimits limits;
   bool validation = false, poison = false;
+  bool names = false;  // something reads the names of objects (debug_names.h)
   ProgramCache<ComputeProgram::Impl> compute_programs;
   ProgramCache<RasterProgram::Impl> raster_programs;
 };
