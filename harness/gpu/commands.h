@@ -9,6 +9,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,14 +23,20 @@
 
 namespace ml::gpu {
 
-// A resource for the shader variable (or block) of that name.
+// A resource for the shader variable (or block) of that name. An image is all of its levels where the shader
+// samples it, its first one where the shader stores to it; with `level` it is that level alone, which the
+// shader then knows as 0. A pass may read some levels of an image and write others.
 struct Binding {
   std::string_view name;
   const Buffer* buffer = nullptr;
   const Image* image = nullptr;
+  std::optional<uint32_t> level;
+  std::optional<Sampling> sampling;  // instead of the image's own
   Binding(std::string_view n, const Buffer& b) : name(n), buffer(&b) {}
   Binding(std::string_view n, const UploadBuffer& b) : name(n), buffer(&b.shader()) {}
   Binding(std::string_view n, const Image& i) : name(n), image(&i) {}
+  Binding(std::string_view n, const Image& i, uint32_t l) : name(n), image(&i), level(l) {}
+  Binding(std::string_view n, const Image& i, const Sampling& s) : name(n), image(&i), sampling(s) {}
 };
 using Bindings = std::vector<Binding>;
 
@@ -84,15 +91,15 @@ class Commands {
     dispatch(program, bindings, std::as_bytes(std::span(&push, 1)), groups_x, groups_y, groups_z);
   }
 
-  // Clears the targets (unless they are kept) and draws.
+  // Clears the first level of the targets (unless they are kept) and draws into it.
   void raster(const RasterTargets& targets, const Buffer& vertices, const Buffer& indices,
               std::span<const DrawCall> draws);
 
-  void clear(const Image& image);  // all bits 0
+  void clear(const Image& image);  // all bits of all levels 0
   void fill(const Buffer& buffer, uint32_t word);
   // Copies; what does not fit is a std::logic_error.
-  void transfer(const UploadBuffer& buffer);                 // to the device-local twin, where there is one
-  void read_image(const Image& image, const Buffer& into);   // tightly packed rows
+  void transfer(const UploadBuffer& buffer);  // to the device-local twin, where there is one
+  void read_image(const Image& image, const Buffer& into, uint32_t level = 0);  // tightly packed rows
   void write_image(const Buffer& from, const Image& image);  // all levels, one behind the other
   void read_buffer(const Buffer& buffer, size_t bytes, const Buffer& into);  // into any kind of memory
 

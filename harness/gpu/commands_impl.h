@@ -36,6 +36,8 @@ struct Commands::Impl {
 
   // A descriptor set with everything that the program uses.
   vk::DescriptorSet bind(const Layout& layout, const Bindings& bindings, const std::string& program);
+  vk::DescriptorImageInfo bind_image(const Binding& binding, vk::DescriptorType type,
+                                     const std::string& program);
   void push(const Layout& layout, std::span<const std::byte> bytes, const std::string& program);
 
   void create_fork();

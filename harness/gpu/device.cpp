@@ -259,6 +259,7 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, const QueueCh
   result.fp64 = features.shaderFloat64;
   result.fragment_triangles = features.geometryShader;
   result.fragment_stores = features.fragmentStoresAndAtomics;
+  result.small_storage_formats = features.shaderStorageImageExtendedFormats;
   vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
   for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
     if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
@@ -286,6 +287,7 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, const Que
   features.features.shaderFloat64 = limits.fp64;
   features.features.geometryShader = limits.fragment_triangles;
   features.features.fragmentStoresAndAtomics = limits.fragment_stores;
+  features.features.shaderStorageImageExtendedFormats = limits.small_storage_formats;
   features.pNext = &v12;
   vk::DeviceCreateInfo info({}, wanted);
   info.pNext = &features;
