@@ -28,13 +28,14 @@ Buffer::Buffer(Device& owner, size_t bytes, MemoryKind kind, const std::string& 
   using Usage = vk::BufferUsageFlagBits;
   vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eUniformBuffer | Usage::eTransferSrc |
                                Usage::eTransferDst | Usage::eVertexBuffer | Usage::eIndexBuffer |
-                               Usage::eUniformTexelBuffer;
+                               Usage::eUniformTexelBuffer | Usage::eIndirectBuffer;
   // Shaders never see readback memory, so their range does not limit it.
   if (kind == MemoryKind::readback) usage = Usage::eTransferDst;
   const Sharing sharing(device);
   impl_->buffer = vk::raii::Buffer(
       device.device,
       vk::BufferCreateInfo({}, bytes, usage, sharing.mode, sharing.count, sharing.families.data()));
+  impl_->kind = kind;
   set_name(device, impl_->buffer, name);
   vk::MemoryRequirements needs = impl_->buffer.getMemoryRequirements();
   Allocation found = allocate(device, needs, kind, name);

@@ -89,6 +89,15 @@ void Commands::Impl::push(const Layout& layout, std::span<const std::byte> bytes
         static_cast<VkShaderStageFlags>(layout.push_stages), 0, layout.push_bytes, bytes.data());
 }
 
+void Commands::Impl::prepare_dispatch(const ComputeProgram& program, const Bindings& bindings,
+                                      std::span<const std::byte> bytes) {
+  const Layout& layout = program.impl().layout;
+  vk::DescriptorSet set = bind(layout, bindings, program.name());
+  now().bindPipeline(vk::PipelineBindPoint::eCompute, *program.impl().pipeline);
+  now().bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout.pipeline_layout, 0, set, {});
+  push(layout, bytes, program.name());
+}
+
 void Commands::dispatch(const ComputeProgram& program, const Bindings& bindings,
                         std::span<const std::byte> push, uint32_t groups_x, uint32_t groups_y,
                         uint32_t groups_z) {
@@ -98,12 +107,21 @@ void Commands::dispatch(const ComputeProgram& program, const Bindings& bindings,
     throw SystemError(fmt::format("{}: {}x{}x{} workgroups, the device allows {}x{}x{}", program.name(),
                                   groups_x, groups_y, groups_z, limit[0], limit[1], limit[2]));
   if (groups_x == 0 || groups_y == 0 || groups_z == 0) return;
-  const Layout& layout = program.impl().layout;
-  vk::DescriptorSet set = c.bind(layout, bindings, program.name());
-  c.now().bindPipeline(vk::PipelineBindPoint::eCompute, *program.impl().pipeline);
-  c.now().bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout.pipeline_layout, 0, set, {});
-  c.push(layout, push, program.name());
+  c.prepare_dispatch(program, bindings, push);
   c.now().dispatch(groups_x, groups_y, groups_z);
+  c.pass_done();
+}
+
+void Commands::dispatch_indirect(const ComputeProgram& program, const Bindings& bindings,
+                                 std::span<const std::byte> push, const Buffer& groups, size_t offset) {
+  Impl& c = *impl_;
+  constexpr size_t counts_bytes = 3 * sizeof(uint32_t);
+  ML_CHECK(groups.impl().kind != MemoryKind::readback);
+  ML_CHECK_EQ(offset % 4, 0);
+  ML_CHECK_GE(groups.bytes(), counts_bytes);
+  ML_CHECK_LE(offset, groups.bytes() - counts_bytes);
+  c.prepare_dispatch(program, bindings, push);
+  c.now().dispatchIndirect(*groups.impl().buffer, offset);
   c.pass_done();
 }
 

@@ -91,6 +91,19 @@ class Commands {
     dispatch(program, bindings, std::as_bytes(std::span(&push, 1)), groups_x, groups_y, groups_z);
   }
 
+  // Compute, with the three group counts (uint32_t x, y, z) that stand in `groups` from byte `offset` on when
+  // the pass begins: a multiple of 4, with the 12 bytes in the buffer, which is no readback memory
+  // (std::logic_error). Counts of 0 are no work; what is over DeviceLimits::group_count is for the pass that
+  // writes them to avoid.
+  void dispatch_indirect(const ComputeProgram& program, const Bindings& bindings,
+                         std::span<const std::byte> push, const Buffer& groups, size_t offset = 0);
+  template <typename Push>
+  void dispatch_indirect(const ComputeProgram& program, const Bindings& bindings, const Push& push,
+                         const Buffer& groups, size_t offset = 0) {
+    static_assert(std::is_trivially_copyable_v<Push>);
+    dispatch_indirect(program, bindings, std::as_bytes(std::span(&push, 1)), groups, offset);
+  }
+
   // Clears the first level of the targets (unless they are kept) and draws into it.
   void raster(const RasterTargets& targets, const Buffer& vertices, const Buffer& indices,
               std::span<const DrawCall> draws);

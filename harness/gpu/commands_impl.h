@@ -38,6 +38,9 @@ struct Commands::Impl {
   vk::DescriptorSet bind(const Layout& layout, const Bindings& bindings, const std::string& program);
   vk::DescriptorImageInfo bind_image(const Binding& binding, vk::DescriptorType type,
                                      const std::string& program);
+  // All of a dispatch but the dispatch.
+  void prepare_dispatch(const ComputeProgram& program, const Bindings& bindings,
+                        std::span<const std::byte> push);
   void push(const Layout& layout, std::span<const std::byte> bytes, const std::string& program);
 
   void create_fork();

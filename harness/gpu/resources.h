@@ -19,8 +19,8 @@ enum class MemoryKind {
   readback,  // mapped for reading, cached where possible
 };
 
-// A buffer of bytes: storage, uniform, vertex, index and transfer uses are all allowed; texel buffers show as
-// much of it as DeviceLimits::texel_buffer_bytes.
+// A buffer of bytes: storage, uniform, vertex, index, indirect and transfer uses are all allowed, all but the
+// last not for readback; texel buffers show as much of it as DeviceLimits::texel_buffer_bytes.
 class Buffer {
  public:
   // `bytes` > 0. Throws SystemError naming `name`, the bytes and the limit when it is over the device's

@@ -63,6 +63,7 @@ struct Buffer::Impl {
   vk::raii::BufferView quads = nullptr;  // as texels of four words; none for readback
   std::span<std::byte> mapped;
   bool device_local = false, cached = false;
+  MemoryKind kind = MemoryKind::device;
 };
 
 struct Image::Impl {
