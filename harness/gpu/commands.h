@@ -42,9 +42,12 @@ using Bindings = std::vector<Binding>;
 
 // Where the GPU's time is stamped.
 enum class Timing {
-  none,    // no stamps
-  stages,  // every span stands alone between full barriers
-  whole,   // only the whole submission is stamped; spans cost nothing
+  none,  // no stamps
+  // Every span stands alone: at its begin and at its end the queue's work runs out (a full barrier), the time
+  // is stamped, and only then the next work starts (a second one). So a span inside another one costs the
+  // outer one two such stops, which are in its time.
+  stages,
+  whole,  // only the whole submission is stamped; spans cost nothing
 };
 
 struct DrawCall {
@@ -116,7 +119,9 @@ class Commands {
   void write_image(const Buffer& from, const Image& image);  // all levels, one behind the other
   void read_buffer(const Buffer& buffer, size_t bytes, const Buffer& into);  // into any kind of memory
 
-  // Names the passes until the returned object dies; spans do not nest.
+  // Names the passes until the returned object dies, in times, traces and debuggers. Inside another span its
+  // name is "outer/inner"; no name has a slash of its own, no span crosses a fork, and all have ended when
+  // the submission is (std::logic_error).
   class Span {
    public:
     ~Span() { commands_.end_span(); }

@@ -27,6 +27,8 @@ struct Commands::Impl {
            (part != Part::second || device.limits.second_timestamp_valid_bits != 0);
   }
 
+  bool stamps_spans() const { return timing == Timing::stages && timed(); }
+
   // Shaders and attachments use GENERAL, copies the layouts made for them.
   void to_layout(const Image& image, vk::ImageLayout layout);
   void to_general(const Image& image) { to_layout(image, vk::ImageLayout::eGeneral); }
@@ -60,6 +62,8 @@ struct Commands::Impl {
   Part part = Part::before;
   std::vector<Part> stamp_parts;  // of each stamp so far
   std::vector<StampedSpan> spans;
+  std::vector<size_t> open_spans;  // of those stamped, the outermost first
+  uint32_t span_depth = 0;         // of all, stamped or not
   std::vector<const Image*> handed_over;
 };
 

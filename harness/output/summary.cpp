@@ -30,12 +30,13 @@ bool is_shading(const std::string& pass) {
   return pass == "shade" || pass == "composite" || pass == "forward";
 }
 
-// The device's passes of one kind together.
+// The device's passes of one kind together, without those inside others ("shade/trace"), whose time is in
+// theirs.
 template <typename Predicate>
 Laps summed(const CaseResult& one, Predicate wanted) {
   Laps sums;
   for (const auto& [name, table] : one.gpu_ms.tables()) {
-    if (!wanted(name)) continue;
+    if (name.find('/') != std::string::npos || !wanted(name)) continue;
     const Laps laps = laps_of(one.gpu_ms, one, name);
     sums.resize(std::max(sums.size(), laps.size()));
     for (size_t i = 0; i < laps.size(); ++i) {
