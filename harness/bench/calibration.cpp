@@ -82,8 +82,7 @@ std::string timing_contradiction(const gpu::SubmissionTimes& times, gpu::Timing 
                        times.disorder);
   if (timing == gpu::Timing::stages) {
     // What two queues did at the same time took that time once.
-    double sum = -times.both_queues;
-    for (const auto& [name, span] : times.spans) sum += span;
+    const double sum = times.sum_of_spans() - times.both_queues;
     // A second queue without timestamps leaves a gap.
     const bool seen = !times.forked || std::any_of(times.intervals.begin(), times.intervals.end(),
                                                    [](const auto& span) { return span.second_queue; });

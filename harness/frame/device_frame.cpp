@@ -102,7 +102,7 @@ void DeviceFrame::load(const FrameInput& input) {
   occupied_blocks_.record(commands_, bindings());
   commands_.submit();
   occupied_blocks_.read();
-  if (!occupied_blocks_.list().has_twin()) return;
+  if (!occupied_blocks_.list().has_device_copy()) return;
   commands_.begin(gpu::Timing::none);
   commands_.transfer(occupied_blocks_.list());
   commands_.submit();

@@ -23,7 +23,6 @@ gpu::Sampling sampling_of(const Texture& texture) {
   gpu::Sampling sampling;
   sampling.magnify_linear = sampler.magnify == Filter::linear;
   sampling.minify_linear = sampler.minify == Filter::linear;
-  sampling.levels = sampler.mip == MipFilter::none ? 1 : level_count(texture.width, texture.height);
   sampling.levels_linear = sampler.mip == MipFilter::linear;
   sampling.u = edge_of(sampler.u);
   sampling.v = edge_of(sampler.v);
@@ -31,11 +30,16 @@ gpu::Sampling sampling_of(const Texture& texture) {
 }
 
 gpu::Image uploaded(gpu::Device& device, gpu::Commands& commands, const Texture& texture, bool srgb) {
-  const gpu::Sampling sampling = sampling_of(texture);
-  gpu::Image image(device, texture.width, texture.height,
-                   srgb ? gpu::Format::rgba8_srgb : gpu::Format::rgba8_unorm, gpu::ImageUse::texture,
-                   "texture " + texture.name, sampling);
-  const std::vector<uint8_t> levels = sampling.levels > 1 ? with_levels(texture, srgb) : texture.rgba;
+  const bool mipped = texture.sampler.mip != MipFilter::none;
+  gpu::Image image(device,
+                   {.width = texture.width,
+                    .height = texture.height,
+                    .format = srgb ? gpu::Format::rgba8_srgb : gpu::Format::rgba8_unorm,
+                    .use = gpu::ImageUse::texture,
+                    .levels = mipped ? gpu::all_levels : 1,
+                    .sampling = sampling_of(texture)},
+                   "texture " + texture.name);
+  const std::vector<uint8_t> levels = image.levels() > 1 ? with_levels(texture, srgb) : texture.rgba;
   gpu::Buffer staging(device, levels.size(), gpu::MemoryKind::upload, "texture staging");
   std::memcpy(staging.mapped().data(), levels.data(), levels.size());
   commands.begin(gpu::Timing::none);

@@ -254,7 +254,7 @@ void ShadedAlgorithm::shade_blocks(gpu::Commands& commands, const Variant& varia
 void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input,
                              bool counting) {
   bool twins = false;
-  for (const gpu::UploadBuffer& buffer : buffers_) twins |= buffer.has_twin();
+  for (const gpu::UploadBuffer& buffer : buffers_) twins |= buffer.has_device_copy();
   if (twins) {
     auto span = commands.span("transfer");
     for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);

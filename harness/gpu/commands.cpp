@@ -3,16 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 
+#include "harness/base/check.h"
 #include "harness/gpu/commands_impl.h"
+#include "harness/gpu/format_features.h"
 
 namespace ml::gpu {
 namespace {
 
 bool same(const Bindings& a, const Bindings& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Binding& x, const Binding& y) {
-    return x.name == y.name && x.buffer == y.buffer && x.image == y.image;
+    return x.name == y.name && x.buffer == y.buffer && x.image == y.image && x.level == y.level &&
+           x.sampling == y.sampling;
   });
 }
 
@@ -46,14 +48,33 @@ vk::DescriptorSet Commands::Impl::bind(const Layout& layout, const Bindings& bin
       write.pTexelBufferView = &texels.emplace_back(*found->buffer->impl().quads);
     } else {
       if (!found->image) throw std::logic_error(fmt::format("{}: '{}' is an image", program, name));
-      to_general(*found->image);
-      const Image::Impl& image = found->image->impl();
-      write.pImageInfo = &images.emplace_back(*image.sampler, *image.view, vk::ImageLayout::eGeneral);
+      write.pImageInfo = &images.emplace_back(bind_image(*found, slot.type, program));
     }
     writes.push_back(write);
   }
   device.device.updateDescriptorSets(writes, {});
   return set;
+}
+
+vk::DescriptorImageInfo Commands::Impl::bind_image(const Binding& binding, vk::DescriptorType type,
+                                                   const std::string& program) {
+  const Image& image = *binding.image;
+  if (binding.level && *binding.level >= image.levels())
+    throw std::logic_error(fmt::format("{}: level {} of '{}', which has {}", program, *binding.level,
+                                       binding.name, image.levels()));
+  to_general(image);
+  Image::Impl& impl = image.impl();
+  vk::DescriptorImageInfo info(impl.sampler, *impl.view, vk::ImageLayout::eGeneral);
+  // Shaders store to one level.
+  if (binding.level || type == vk::DescriptorType::eStorageImage)
+    info.imageView = impl.level_view(device, binding.level.value_or(0));
+  if (binding.sampling) {
+    if (const char* what = lacking(impl.features, *binding.sampling))
+      throw SystemError(fmt::format("{}: '{}' of format {} lacks {}", program, binding.name,
+                                    in_words(image.format()), what));
+    info.sampler = device.samplers.get(device.device, *binding.sampling, image.levels());
+  }
+  return info;
 }
 
 void Commands::Impl::push(const Layout& layout, std::span<const std::byte> bytes,
@@ -68,6 +89,15 @@ void Commands::Impl::push(const Layout& layout, std::span<const std::byte> bytes
         static_cast<VkShaderStageFlags>(layout.push_stages), 0, layout.push_bytes, bytes.data());
 }
 
+void Commands::Impl::prepare_dispatch(const ComputeProgram& program, const Bindings& bindings,
+                                      std::span<const std::byte> bytes) {
+  const Layout& layout = program.impl().layout;
+  vk::DescriptorSet set = bind(layout, bindings, program.name());
+  now().bindPipeline(vk::PipelineBindPoint::eCompute, *program.impl().pipeline);
+  now().bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout.pipeline_layout, 0, set, {});
+  push(layout, bytes, program.name());
+}
+
 void Commands::dispatch(const ComputeProgram& program, const Bindings& bindings,
                         std::span<const std::byte> push, uint32_t groups_x, uint32_t groups_y,
                         uint32_t groups_z) {
@@ -77,12 +107,21 @@ void Commands::dispatch(const ComputeProgram& program, const Bindings& bindings,
     throw SystemError(fmt::format("{}: {}x{}x{} workgroups, the device allows {}x{}x{}", program.name(),
                                   groups_x, groups_y, groups_z, limit[0], limit[1], limit[2]));
   if (groups_x == 0 || groups_y == 0 || groups_z == 0) return;
-  const Layout& layout = program.impl().layout;
-  vk::DescriptorSet set = c.bind(layout, bindings, program.name());
-  c.now().bindPipeline(vk::PipelineBindPoint::eCompute, *program.impl().pipeline);
-  c.now().bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout.pipeline_layout, 0, set, {});
-  c.push(layout, push, program.name());
+  c.prepare_dispatch(program, bindings, push);
   c.now().dispatch(groups_x, groups_y, groups_z);
+  c.pass_done();
+}
+
+void Commands::dispatch_indirect(const ComputeProgram& program, const Bindings& bindings,
+                                 std::span<const std::byte> push, const Buffer& groups, size_t offset) {
+  Impl& c = *impl_;
+  constexpr size_t counts_bytes = 3 * sizeof(uint32_t);
+  ML_CHECK(groups.impl().kind != MemoryKind::readback);
+  ML_CHECK_EQ(offset % 4, 0);
+  ML_CHECK_GE(groups.bytes(), counts_bytes);
+  ML_CHECK_LE(offset, groups.bytes() - counts_bytes);
+  c.prepare_dispatch(program, bindings, push);
+  c.now().dispatchIndirect(*groups.impl().buffer, offset);
   c.pass_done();
 }
 
@@ -93,7 +132,7 @@ void Commands::raster(const RasterTargets& targets, const Buffer& vertices, cons
   auto attachment = [&](const Image& image) {
     c.to_general(image);
     return vk::RenderingAttachmentInfo(
-        *image.impl().view, vk::ImageLayout::eGeneral, vk::ResolveModeFlagBits::eNone, {},
+        image.impl().level_view(c.device, 0), vk::ImageLayout::eGeneral, vk::ResolveModeFlagBits::eNone, {},
         vk::ImageLayout::eUndefined,
         targets.keep ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear,
         vk::AttachmentStoreOp::eStore, vk::ClearValue{});
@@ -134,8 +173,12 @@ void Commands::raster(const RasterTargets& targets, const Buffer& vertices, cons
 void Commands::clear(const Image& image) {
   Impl& c = *impl_;
   c.to_layout(image, vk::ImageLayout::eTransferDstOptimal);
-  c.now().clearColorImage(*image.impl().image, vk::ImageLayout::eTransferDstOptimal, vk::ClearColorValue{},
-                          {{image.impl().aspect, 0, image.levels(), 0, 1}});
+  const vk::ImageSubresourceRange all(image.impl().aspect, 0, image.levels(), 0, 1);
+  const auto layout = vk::ImageLayout::eTransferDstOptimal;
+  if (is_depth(image.format()))
+    c.now().clearDepthStencilImage(*image.impl().image, layout, vk::ClearDepthStencilValue{}, all);
+  else
+    c.now().clearColorImage(*image.impl().image, layout, vk::ClearColorValue{}, all);
   c.pass_done();
 }
 
@@ -145,17 +188,19 @@ void Commands::fill(const Buffer& buffer, uint32_t word) {
 }
 
 void Commands::transfer(const UploadBuffer& buffer) {
-  if (!buffer.has_twin() || buffer.used() == 0) return;
+  if (!buffer.has_device_copy() || buffer.used() == 0) return;
   impl_->now().copyBuffer(*buffer.host().impl().buffer, *buffer.shader().impl().buffer,
                           vk::BufferCopy(0, 0, buffer.used()));
   impl_->pass_done();
 }
 
-void Commands::read_image(const Image& image, const Buffer& into) {
+void Commands::read_image(const Image& image, const Buffer& into, uint32_t level) {
   Impl& c = *impl_;
-  assert(into.bytes() >= image.bytes());
+  ML_CHECK_LT(level, image.levels());
+  ML_CHECK_GE(into.bytes(), image.bytes(level));
   c.to_layout(image, vk::ImageLayout::eTransferSrcOptimal);
-  vk::BufferImageCopy region(0, 0, 0, {image.impl().aspect, 0, 0, 1}, {}, {image.width(), image.height(), 1});
+  vk::BufferImageCopy region(0, 0, 0, {image.impl().aspect, level, 0, 1}, {},
+                             {image.width(level), image.height(level), 1});
   c.now().copyImageToBuffer(*image.impl().image, vk::ImageLayout::eTransferSrcOptimal, *into.impl().buffer,
                             region);
   c.pass_done();
@@ -163,7 +208,7 @@ void Commands::read_image(const Image& image, const Buffer& into) {
 
 void Commands::write_image(const Buffer& from, const Image& image) {
   Impl& c = *impl_;
-  assert(from.bytes() >= image.bytes());
+  ML_CHECK_GE(from.bytes(), image.bytes());
   c.to_layout(image, vk::ImageLayout::eTransferDstOptimal);
   std::vector<vk::BufferImageCopy> regions;
   vk::DeviceSize offset = 0;
@@ -171,7 +216,7 @@ void Commands::write_image(const Buffer& from, const Image& image) {
     const uint32_t width = image.width(level), height = image.height(level);
     regions.emplace_back(offset, 0, 0, vk::ImageSubresourceLayers(image.impl().aspect, level, 0, 1),
                          vk::Offset3D(), vk::Extent3D(width, height, 1));
-    offset += vk::DeviceSize{width} * height * bytes_per_pixel(image.format());
+    offset += image.bytes(level);
   }
   c.now().copyBufferToImage(*from.impl().buffer, *image.impl().image, vk::ImageLayout::eTransferDstOptimal,
                             regions);
@@ -179,7 +224,8 @@ void Commands::write_image(const Buffer& from, const Image& image) {
 }
 
 void Commands::read_buffer(const Buffer& buffer, size_t bytes, const Buffer& into) {
-  assert(bytes <= buffer.bytes() && bytes <= into.bytes());
+  ML_CHECK_LE(bytes, buffer.bytes());
+  ML_CHECK_LE(bytes, into.bytes());
   if (bytes == 0) return;
   impl_->now().copyBuffer(*buffer.impl().buffer, *into.impl().buffer, vk::BufferCopy(0, 0, bytes));
   impl_->pass_done();

@@ -9,6 +9,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,22 +23,31 @@
 
 namespace ml::gpu {
 
-// A resource for the shader variable (or block) of that name.
+// A resource for the shader variable (or block) of that name. An image is all of its levels where the shader
+// samples it, its first one where the shader stores to it; with `level` it is that level alone, which the
+// shader then knows as 0. A pass may read some levels of an image and write others.
 struct Binding {
   std::string_view name;
   const Buffer* buffer = nullptr;
   const Image* image = nullptr;
+  std::optional<uint32_t> level;
+  std::optional<Sampling> sampling;  // instead of the image's own
   Binding(std::string_view n, const Buffer& b) : name(n), buffer(&b) {}
   Binding(std::string_view n, const UploadBuffer& b) : name(n), buffer(&b.shader()) {}
   Binding(std::string_view n, const Image& i) : name(n), image(&i) {}
+  Binding(std::string_view n, const Image& i, uint32_t l) : name(n), image(&i), level(l) {}
+  Binding(std::string_view n, const Image& i, const Sampling& s) : name(n), image(&i), sampling(s) {}
 };
 using Bindings = std::vector<Binding>;
 
 // Where the GPU's time is stamped.
 enum class Timing {
-  none,    // no stamps
-  stages,  // every span stands alone between full barriers
-  whole,   // only the whole submission is stamped; spans cost nothing
+  none,  // no stamps
+  // Every span stands alone: at its begin and at its end the queue's work runs out (a full barrier), the time
+  // is stamped, and only then the next work starts (a second one). So a span inside another one costs the
+  // outer one two such stops, which are in its time.
+  stages,
+  whole,  // only the whole submission is stamped; spans cost nothing
 };
 
 struct DrawCall {
@@ -61,6 +71,7 @@ class Commands {
   Commands(const Commands&) = delete;
   Commands& operator=(const Commands&) = delete;
 
+  // Passes are recorded between begin() and submit(); out of turn each is a std::logic_error.
   void begin(Timing timing);
   // Submits, waits for the fence and reads the stamps. Throws SystemError when the device is lost.
   SubmissionTimes submit();
@@ -83,18 +94,34 @@ class Commands {
     dispatch(program, bindings, std::as_bytes(std::span(&push, 1)), groups_x, groups_y, groups_z);
   }
 
-  // Clears the targets (unless they are kept) and draws.
+  // Compute, with the three group counts (uint32_t x, y, z) that stand in `groups` from byte `offset` on when
+  // the pass begins: a multiple of 4, with the 12 bytes in the buffer, which is no readback memory
+  // (std::logic_error). Counts of 0 are no work; what is over DeviceLimits::group_count is for the pass that
+  // writes them to avoid.
+  void dispatch_indirect(const ComputeProgram& program, const Bindings& bindings,
+                         std::span<const std::byte> push, const Buffer& groups, size_t offset = 0);
+  template <typename Push>
+  void dispatch_indirect(const ComputeProgram& program, const Bindings& bindings, const Push& push,
+                         const Buffer& groups, size_t offset = 0) {
+    static_assert(std::is_trivially_copyable_v<Push>);
+    dispatch_indirect(program, bindings, std::as_bytes(std::span(&push, 1)), groups, offset);
+  }
+
+  // Clears the first level of the targets (unless they are kept) and draws into it.
   void raster(const RasterTargets& targets, const Buffer& vertices, const Buffer& indices,
               std::span<const DrawCall> draws);
 
-  void clear(const Image& image);  // all bits 0
+  void clear(const Image& image);  // all bits of all levels 0
   void fill(const Buffer& buffer, uint32_t word);
-  void transfer(const UploadBuffer& buffer);                 // to the device-local twin, where there is one
-  void read_image(const Image& image, const Buffer& into);   // tightly packed rows
+  // Copies; what does not fit is a std::logic_error.
+  void transfer(const UploadBuffer& buffer);  // to the device-local copy, where there is one
+  void read_image(const Image& image, const Buffer& into, uint32_t level = 0);  // tightly packed rows
   void write_image(const Buffer& from, const Image& image);  // all levels, one behind the other
   void read_buffer(const Buffer& buffer, size_t bytes, const Buffer& into);  // into any kind of memory
 
-  // Names the passes until the returned object dies; spans do not nest.
+  // Names the passes until the returned object dies, in times, traces and debuggers. Inside another span its
+  // name is "outer/inner"; no name has a slash of its own, no span crosses a fork, and all have ended when
+  // the submission is (std::logic_error).
   class Span {
    public:
     ~Span() { commands_.end_span(); }

@@ -27,6 +27,8 @@ struct Commands::Impl {
            (part != Part::second || device.limits.second_timestamp_valid_bits != 0);
   }
 
+  bool stamps_spans() const { return timing == Timing::stages && timed(); }
+
   // Shaders and attachments use GENERAL, copies the layouts made for them.
   void to_layout(const Image& image, vk::ImageLayout layout);
   void to_general(const Image& image) { to_layout(image, vk::ImageLayout::eGeneral); }
@@ -36,6 +38,11 @@ struct Commands::Impl {
 
   // A descriptor set with everything that the program uses.
   vk::DescriptorSet bind(const Layout& layout, const Bindings& bindings, const std::string& program);
+  vk::DescriptorImageInfo bind_image(const Binding& binding, vk::DescriptorType type,
+                                     const std::string& program);
+  // All of a dispatch but the dispatch.
+  void prepare_dispatch(const ComputeProgram& program, const Bindings& bindings,
+                        std::span<const std::byte> push);
   void push(const Layout& layout, std::span<const std::byte> bytes, const std::string& program);
 
   void create_fork();
@@ -55,6 +62,8 @@ struct Commands::Impl {
   Part part = Part::before;
   std::vector<Part> stamp_parts;  // of each stamp so far
   std::vector<StampedSpan> spans;
+  std::vector<size_t> open_spans;  // of those stamped, the outermost first
+  uint32_t span_depth = 0;         // of all, stamped or not
   std::vector<const Image*> handed_over;
 };
 

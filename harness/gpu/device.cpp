@@ -27,7 +27,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
   return VK_FALSE;
 }
 
-vk::raii::Instance make_instance(vk::raii::Context& context, bool validation) {
+// With or without VK_EXT_debug_utils, which the validation layer's messages need.
+vk::raii::Instance make_instance(vk::raii::Context& context, bool validation, bool debug_utils) {
   vk::ApplicationInfo application("manylights", 1, "manylights", 1, VK_API_VERSION_1_3);
   std::vector<const char*> layers, extensions;
   // Synchronization validation is a feature that has to be asked for.
@@ -43,10 +44,10 @@ vk::raii::Instance make_instance(vk::raii::Context& context, bool validation) {
       throw SystemError(
           "the Vulkan validation layer is not installed (Debian package vulkan-validationlayers)");
     layers.push_back(validation_layer);
-    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     info.pNext = &features;
   }
+  if (debug_utils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   info.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions);
   try {
     return {context, info};
@@ -224,6 +225,14 @@ void apply_quirks(const vk::raii::PhysicalDevice& physical, DeviceLimits& limits
   if (driver == vk::DriverId::eMesaLlvmpipe) limits.loop_iterations = 65535;
 }
 
+// By a tool that listens: a debugger or profiler.
+bool names_are_read(const vk::raii::PhysicalDevice& physical) {
+  const std::vector<vk::PhysicalDeviceToolProperties> tools = physical.getToolProperties();
+  return std::any_of(tools.begin(), tools.end(), [](const vk::PhysicalDeviceToolProperties& tool) {
+    return static_cast<bool>(tool.purposes & vk::ToolPurposeFlagBits::eDebugMarkersEXT);
+  });
+}
+
 DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, const QueueChoice& queues) {
   auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties,
                                        vk::PhysicalDeviceVulkan13Properties>();
@@ -250,6 +259,7 @@ DeviceLimits read_limits(const vk::raii::PhysicalDevice& physical, const QueueCh
   result.fp64 = features.shaderFloat64;
   result.fragment_triangles = features.geometryShader;
   result.fragment_stores = features.fragmentStoresAndAtomics;
+  result.small_storage_formats = features.shaderStorageImageExtendedFormats;
   vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
   for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
     if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
@@ -277,6 +287,7 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, const Que
   features.features.shaderFloat64 = limits.fp64;
   features.features.geometryShader = limits.fragment_triangles;
   features.features.fragmentStoresAndAtomics = limits.fragment_stores;
+  features.features.shaderStorageImageExtendedFormats = limits.small_storage_formats;
   features.pNext = &v12;
   vk::DeviceCreateInfo info({}, wanted);
   info.pNext = &features;
@@ -299,7 +310,7 @@ const char* in_words(SecondQueue queue) {
 std::vector<DeviceInfo> list_devices() {
   vk::raii::Context context = load_vulkan();
   try {
-    vk::raii::Instance instance = make_instance(context, false);
+    vk::raii::Instance instance = make_instance(context, false, false);
     std::vector<DeviceInfo> infos;
     for (const auto& physical : physical_devices(instance))
       infos.push_back(describe(physical, static_cast<uint32_t>(infos.size())));
@@ -313,7 +324,14 @@ Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>()) {
   Impl& d = *impl_;
   try {
     d.context = load_vulkan();
-    d.instance = make_instance(d.context, options.validation);
+    bool debug_utils = true;
+    try {
+      d.instance = make_instance(d.context, options.validation, true);
+    } catch (const vk::ExtensionNotPresentError&) {
+      if (options.validation) throw;
+      d.instance = make_instance(d.context, false, false);
+      debug_utils = false;
+    }
     if (options.validation) {
       using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
       using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
@@ -336,6 +354,7 @@ Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>()) {
     d.main = {vk::raii::Queue(d.device, queues.main, 0), queues.main};
     d.second = {vk::raii::Queue(d.device, queues.second, queues.second_index), queues.second};
     d.validation = options.validation;
+    d.names = options.validation || (debug_utils && names_are_read(d.physical));
     d.poison = options.poison;
   } catch (const vk::Error& error) {
     throw SystemError(std::string("cannot open a Vulkan device: ") + error.what());

@@ -47,6 +47,8 @@ struct DeviceLimits {
   bool fp64 = false;
   // Fragment shaders may number the triangles of a draw (gl_PrimitiveID), and write images.
   bool fragment_triangles = false, fragment_stores = false;
+  // Storage images may have one or two components of 8 or 16 bits, or two of 32.
+  bool small_storage_formats = false;
   uint64_t device_memory = 0;  // bytes of the largest device-local heap
 };
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "harness/gpu/vulkan.h"
+#include "harness/gpu/debug_names.h"
 
 namespace ml::gpu {
 namespace {
@@ -150,6 +150,7 @@ ComputeProgram::ComputeProgram(Device& owner, std::span<const uint32_t> spirv, c
     vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
     impl.pipeline = vk::raii::Pipeline(
         device.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *impl.layout.pipeline_layout));
+    set_name(device, impl.pipeline, name);
   });
 }
 
@@ -213,6 +214,7 @@ RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex,
                                         &depth, &blend, &dynamic_state, *impl.layout.pipeline_layout);
     info.pNext = &rendering;
     impl.pipeline = vk::raii::Pipeline(device.device, nullptr, info);
+    set_name(device, impl.pipeline, name);
   });
 }
 

@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 
+#include "harness/base/check.h"
 #include "harness/gpu/commands_impl.h"
+#include "harness/gpu/debug_names.h"
 
 namespace ml::gpu {
 namespace {
@@ -67,7 +68,6 @@ void Commands::Impl::barrier(vk::PipelineStageFlags2 after, vk::AccessFlags2 acc
 // and that keeps a span's work inside it everywhere else. Each queue has its own; the other goes on.
 void Commands::Impl::stamp() {
   const auto number = static_cast<uint32_t>(stamp_parts.size());
-  assert(number < max_stamps);
   barrier();
   now().writeTimestamp2(all_stages, *stamps, number);
   barrier();
@@ -110,7 +110,7 @@ Commands::~Commands() = default;
 
 void Commands::begin(Timing timing) {
   Impl& c = *impl_;
-  assert(!c.recording);
+  ML_CHECK(!c.recording);
   c.pool.reset();
   if (*c.second_pool) c.second_pool.reset();
   c.sets.reset();
@@ -119,6 +119,8 @@ void Commands::begin(Timing timing) {
   c.forked = c.unordered = false;
   c.stamp_parts.clear();
   c.spans.clear();
+  c.open_spans.clear();
+  c.span_depth = 0;
   c.handed_over.clear();
   begin_recording(c.now());
   c.recording = true;
@@ -132,6 +134,7 @@ void Commands::begin(Timing timing) {
 void Commands::fork(const std::function<void()>& second, const std::function<void()>& beside) {
   Impl& c = *impl_;
   if (!c.recording || c.forked) throw std::logic_error("a submission is forked once, while it is recorded");
+  if (c.span_depth) throw std::logic_error("a fork inside a span");
   c.create_fork();
   c.forked = true;
   for (Part part : {Part::second, Part::beside, Part::after}) begin_recording(c.of(part));
@@ -163,7 +166,8 @@ void Commands::Impl::submit_parts() {
 
 SubmissionTimes Commands::submit() {
   Impl& c = *impl_;
-  assert(c.recording);
+  ML_CHECK(c.recording);
+  ML_CHECK_EQ(c.span_depth, 0);
   if (c.timed()) c.stamp();
   c.barrier(vk::PipelineStageFlagBits2::eHost, vk::AccessFlagBits2::eHostRead);
   c.of(Part::before).end();
@@ -205,21 +209,35 @@ SubmissionTimes Commands::submit() {
 
 Commands::Span Commands::span(std::string_view name) {
   Impl& c = *impl_;
-  if (c.timed() && c.timing == Timing::stages) {
-    c.spans.push_back({std::string(name), c.stamp_parts.size()});
-    c.stamp();
+  if (is_inner(name)) throw std::logic_error(fmt::format("a slash in the name of the span '{}'", name));
+  if (c.stamps_spans()) {
+    // Room for the last stamps of this span, of those around it, and of the submission: a span that ends must
+    // not throw.
+    ML_CHECK_LE(c.stamp_parts.size() + c.open_spans.size() + 3, max_stamps);
+    const std::string around = c.open_spans.empty() ? "" : c.spans[c.open_spans.back()].name + "/";
+    c.open_spans.push_back(c.spans.size());
+    c.spans.push_back({around + std::string(name), c.stamp_parts.size(), 0});
   }
+  ++c.span_depth;
+  begin_label(c.device, c.now(), name);
+  if (c.stamps_spans()) c.stamp();
   return Span(*this);
 }
 
 void Commands::end_span() {
   Impl& c = *impl_;
-  if (c.timed() && c.timing == Timing::stages) c.stamp();
+  if (c.stamps_spans()) {
+    c.spans[c.open_spans.back()].last = c.stamp_parts.size();
+    c.open_spans.pop_back();
+    c.stamp();
+  }
+  end_label(c.device, c.now());
+  --c.span_depth;
 }
 
 Commands::Unordered Commands::unordered() {
   Impl& c = *impl_;
-  assert(!c.unordered);
+  ML_CHECK(!c.unordered);
   c.unordered = true;
   std::lock_guard lock(c.device.log.mutex);
   c.device.log.writes_apart = true;

@@ -37,6 +37,13 @@ class Reader {
 
 }  // namespace
 
+double SubmissionTimes::sum_of_spans() const {
+  double sum = 0;
+  for (const auto& [name, span] : spans)
+    if (!is_inner(name)) sum += span;
+  return sum;
+}
+
 SubmissionTimes times_of(const StampClock& clock, std::span<const Stamp> stamps,
                          std::span<const StampedSpan> spans) {
   SubmissionTimes times;
@@ -53,7 +60,7 @@ SubmissionTimes times_of(const StampClock& clock, std::span<const Stamp> stamps,
     }
   }
   for (const StampedSpan& span : spans) {
-    const double length = reader.between(span.first, span.first + 1);
+    const double length = reader.between(span.first, span.last);
     const double begin = reader.since_begin(span.first);
     const bool second = stamps[span.first].part == Part::second;
     if (second) times.disorder = std::max({times.disorder, earliest - begin, begin + length - latest});
@@ -65,11 +72,11 @@ SubmissionTimes times_of(const StampClock& clock, std::span<const Stamp> stamps,
     else
       found->second += length;
   }
-  // Spans of one queue do not overlap each other, so pairs of the two queues add up.
+  // Outer spans of one queue do not overlap each other, so pairs of the two queues add up.
   for (size_t i = 0; i < spans.size(); ++i) {
-    if (!times.intervals[i].second_queue) continue;
+    if (!times.intervals[i].second_queue || is_inner(spans[i].name)) continue;
     for (size_t j = 0; j < spans.size(); ++j) {
-      if (stamps[spans[j].first].part != Part::beside) continue;
+      if (stamps[spans[j].first].part != Part::beside || is_inner(spans[j].name)) continue;
       const SubmissionTimes::Interval &a = times.intervals[i], &b = times.intervals[j];
       times.both_queues += std::max(0.0, std::min(a.end, b.end) - std::max(a.begin, b.begin));
     }

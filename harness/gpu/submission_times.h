@@ -4,15 +4,23 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace ml::gpu {
 
+// A span inside another one is called "outer/inner": its time is a part of the outer one's.
+inline bool is_inner(std::string_view span) {
+  return span.find('/') != std::string_view::npos;
+}
+
 // Times of one submission, in milliseconds.
 struct SubmissionTimes {
-  std::vector<std::pair<std::string, double>>
-      spans;         // in order of recording, sums by name; empty unless Timing::stages
+  // In order of recording (outer ones before what is in them), sums by name; empty unless Timing::stages.
+  std::vector<std::pair<std::string, double>> spans;
+  // Of all spans but those inside others: nothing counts twice. What both queues did at the same time does.
+  double sum_of_spans() const;
   double whole = 0;  // first to last stamp; 0 when not timed
   double fence = 0;  // CPU clock from submit to fence
 
@@ -27,7 +35,7 @@ struct SubmissionTimes {
 
   // Of a submission that was forked (Commands::fork).
   bool forked = false;
-  double both_queues = 0;  // for how long spans ran on both queues at the same time
+  double both_queues = 0;  // for how long outer spans ran on both queues at the same time
   // Vulkan does not promise that stamps of two queues can be compared. By how much those of the second queue
   // stand outside the time that the semaphores leave it: 0 when both come from one clock.
   double disorder = 0;
@@ -43,10 +51,10 @@ struct Stamp {
   Part part = Part::before;
 };
 
-// A span lies between stamps `first` and `first + 1`.
+// A span lies between two stamps of one queue.
 struct StampedSpan {
-  std::string name;
-  size_t first = 0;
+  std::string name;  // with those of the spans around it
+  size_t first = 0, last = 0;
 };
 
 // The queues' timestamps: valid bits of each, and the length of a tick, which a device has one of.

@@ -15,6 +15,7 @@
 #include "harness/gpu/program.h"
 #include "harness/gpu/program_cache.h"
 #include "harness/gpu/resources.h"
+#include "harness/gpu/sampler_cache.h"
 #include "harness/gpu/specialization.h"
 
 namespace ml::gpu {
@@ -47,6 +48,8 @@ struct Device::Impl {
   DeviceInfo info;
   DeviceLimits limits;
   bool validation = false, poison = false;
+  bool names = false;  // something reads the names of objects (debug_names.h)
+  SamplerCache samplers;
   ProgramCache<ComputeProgram::Impl> compute_programs;
   ProgramCache<RasterProgram::Impl> raster_programs;
 };
@@ -60,16 +63,24 @@ struct Buffer::Impl {
   vk::raii::BufferView quads = nullptr;  // as texels of four words; none for readback
   std::span<std::byte> mapped;
   bool device_local = false, cached = false;
+  MemoryKind kind = MemoryKind::device;
 };
 
 struct Image::Impl {
   vk::raii::DeviceMemory memory = nullptr;
   vk::raii::Image image = nullptr;
-  vk::raii::ImageView view = nullptr;
-  vk::raii::Sampler sampler = nullptr;
+  vk::raii::ImageView view = nullptr;                   // of all levels
+  std::map<uint32_t, vk::raii::ImageView> level_views;  // made when one is first bound
+  uint32_t levels = 1;
+  vk::Sampler sampler;  // the device's
+  vk::Format format{};
+  vk::FormatFeatureFlags2 features;
   vk::ImageAspectFlags aspect;
   // As of the last command recorded.
   vk::ImageLayout layout = vk::ImageLayout::eUndefined;
+
+  vk::raii::ImageView view_of(const Device::Impl& device, uint32_t first, uint32_t count) const;
+  vk::ImageView level_view(const Device::Impl& device, uint32_t level);
 };
 
 // Who may use a resource. Buffers belong to both families where there are two: no device is known to treat

@@ -39,12 +39,13 @@ bool is_post(const CaseResult& one, const std::string& pass) {
   return declared != one.passes.end() && declared->second == "post";
 }
 
-// The device's passes of one kind together.
+// The device's passes of one kind together, without those inside others ("shade/trace"), whose time is in
+// theirs.
 template <typename Predicate>
 Laps summed(const CaseResult& one, Predicate wanted) {
   Laps sums;
   for (const auto& [name, table] : one.gpu_ms.tables()) {
-    if (!wanted(name)) continue;
+    if (name.find('/') != std::string::npos || !wanted(name)) continue;
     const Laps laps = laps_of(one.gpu_ms, one, name);
     sums.resize(std::max(sums.size(), laps.size()));
     for (size_t i = 0; i < laps.size(); ++i) {

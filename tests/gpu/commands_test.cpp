@@ -96,6 +96,32 @@ TEST_F(Dispatch, SpansComeInOrderAndSumByName) {
   EXPECT_EQ(none.whole, 0.0);
 }
 
+TEST_F(Dispatch, CallsOutOfTurnAndCopiesThatDoNotFitAreErrors) {
+  gpu::Buffer small(device(), 128, gpu::MemoryKind::readback, "small");
+  gpu::Image image(device(), 8, 8, gpu::Format::r32_uint, gpu::ImageUse::storage, "image");
+  EXPECT_THROW(commands_.submit(), std::logic_error);
+  commands_.begin(gpu::Timing::none);
+  EXPECT_THROW(commands_.begin(gpu::Timing::none), std::logic_error);
+  EXPECT_THROW(commands_.read_buffer(in_, 256, small), std::logic_error);
+  EXPECT_THROW(commands_.read_buffer(in_, 257, out_), std::logic_error);
+  EXPECT_THROW(commands_.read_image(image, small), std::logic_error);
+  EXPECT_THROW(commands_.write_image(small, image), std::logic_error);
+  {
+    auto apart = commands_.unordered();
+    EXPECT_THROW(static_cast<void>(commands_.unordered()), std::logic_error);
+  }
+  commands_.submit();
+}
+
+TEST_F(Dispatch, MoreSpansThanStampsAreAnError) {
+  if (device().limits().timestamp_valid_bits == 0) GTEST_SKIP() << "the queue has no timestamps";
+  commands_.begin(gpu::Timing::stages);
+  size_t spans = 0;
+  EXPECT_THROW(for (; spans < 1000; ++spans) static_cast<void>(commands_.span("pass")), std::logic_error);
+  EXPECT_EQ(spans, 127u);
+  EXPECT_EQ(commands_.submit().intervals.size(), spans);
+}
+
 TEST_F(Dispatch, WholeHoldsTheSpansOfRasterAndComputePasses) {
   if (device().limits().timestamp_valid_bits == 0) GTEST_SKIP() << "the queue has no timestamps";
   CalibrationPasses passes(device());

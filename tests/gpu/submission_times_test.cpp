@@ -20,7 +20,7 @@ class Recorded {
  public:
   explicit Recorded(uint64_t begin) { stamps_.push_back({begin, Part::before}); }
   Recorded& span(const char* name, Part part, uint64_t begin, uint64_t end) {
-    spans_.push_back({name, stamps_.size()});
+    spans_.push_back({name, stamps_.size(), stamps_.size() + 1});
     stamps_.push_back({begin, part});
     stamps_.push_back({end, part});
     return *this;
@@ -116,6 +116,25 @@ TEST(TimingContradiction, CountsOnceWhatTwoQueuesDidTogether) {
                                      .times(9000),
                                  gpu::Timing::stages),
             "");
+}
+
+TEST(TimingContradiction, CountsOnceWhatIsInsideAnotherSpan) {
+  // In milliseconds: lists from 1 to 3 with a part of 1, beside shadow maps from 0 to 4 with a part of 1.5.
+  const std::vector<Stamp> stamps{{0, Part::before},    {1000, Part::second}, {1500, Part::second},
+                                  {2500, Part::second}, {3000, Part::second}, {0, Part::beside},
+                                  {500, Part::beside},  {2000, Part::beside}, {4000, Part::beside},
+                                  {4000, Part::after}};
+  const std::vector<gpu::StampedSpan> spans{
+      {"lists", 1, 4}, {"lists/coarse", 2, 3}, {"shadow_maps", 5, 8}, {"shadow_maps/first", 6, 7}};
+  SubmissionTimes times = gpu::times_of({64, 64, 1000}, stamps, spans);
+  times.forked = true;
+  times.fence = times.whole;
+  EXPECT_DOUBLE_EQ(times.both_queues, 2);
+  EXPECT_DOUBLE_EQ(times.sum_of_spans(), 6);
+  ASSERT_EQ(times.spans.size(), 4u);
+  EXPECT_DOUBLE_EQ(times.spans[1].second, 1);
+  EXPECT_DOUBLE_EQ(times.spans[3].second, 1.5);
+  EXPECT_EQ(timing_contradiction(times, gpu::Timing::stages), "");
 }
 
 TEST(TimingContradiction, AllowsAQueueWithoutTimestampsItsTime) {

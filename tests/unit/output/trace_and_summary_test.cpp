@@ -116,6 +116,9 @@ TEST(Summary, CullIsAllThatTheDeviceDoesBeforeShading) {
       result.cases[0].gpu_ms.set("bounds", repeat, frame, 3.25);
       result.cases[0].gpu_ms.set("lists", repeat, frame, 13.5);
       result.cases[0].gpu_ms.set("transfer", repeat, frame, 100);
+      // Parts of passes, whose time is in theirs.
+      result.cases[0].gpu_ms.set("lists/coarse", repeat, frame, 5);
+      result.cases[0].gpu_ms.set("shade/trace", repeat, frame, 5);
     }
   EXPECT_TRUE(contains(line_with(summary_table(result), "clustered"), " 16.75 "));
   EXPECT_FALSE(contains(none, "16.75"));
