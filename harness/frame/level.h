@@ -23,7 +23,7 @@ class Level {
   // materials.
   Level(gpu::Device& device, const Scene& scene, const FrameOptions& options);
 
-  // A program of the forward pass; `fragment` is ShadeShaders::forward or its counting twin.
+  // A program of the forward pass; `fragment` is ShadeShaders::forward or its counting variant.
   static gpu::RasterProgram forward_program(gpu::Device& device, std::span<const uint32_t> fragment,
                                             const std::string& name, const FrameOptions& options,
                                             const gpu::Constants& constants);

@@ -253,9 +253,9 @@ void ShadedAlgorithm::shade_blocks(gpu::Commands& commands, const Variant& varia
 
 void ShadedAlgorithm::record(gpu::Commands& commands, DeviceFrame& frame, const FrameInput& input,
                              bool counting) {
-  bool twins = false;
-  for (const gpu::UploadBuffer& buffer : buffers_) twins |= buffer.has_device_copy();
-  if (twins) {
+  bool copies = false;
+  for (const gpu::UploadBuffer& buffer : buffers_) copies |= buffer.has_device_copy();
+  if (copies) {
     auto span = commands.span("transfer");
     for (const gpu::UploadBuffer& buffer : buffers_) commands.transfer(buffer);
     if (!one_class_) commands.transfer(class_blocks_);
