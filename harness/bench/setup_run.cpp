@@ -48,6 +48,9 @@ nlohmann::json parameters_json(const Parameters& parameters) {
 
 namespace {
 
+// Of lists of contributing lights that are kept from lap to lap.
+constexpr size_t max_saved_bytes = size_t{256} << 20;
+
 // The kept frame where it fits the workload, else a new one in its place.
 DeviceFrame& frame_for(gpu::Device& device, Workload& workload, KeptFrame& kept) {
   const uint32_t width = workload.frames().width(), height = workload.frames().height();
@@ -107,6 +110,21 @@ void SetupRun::load(uint32_t index, bool lists) {
   }
 }
 
+void SetupRun::keep_lists(uint32_t index) {
+  if (lists_ == LightLists::none || saved_bytes_ > max_saved_bytes) return;
+  auto span = log_.span("contributing lights");
+  SavedContributing& saved = saved_[index] = frame_.save_contributing(lists_);
+  saved_bytes_ += saved.bytes();
+}
+
+void SetupRun::load_again(uint32_t index) {
+  const auto saved = saved_.find(index);
+  load(index, lists_ != LightLists::none && saved == saved_.end());
+  if (saved == saved_.end()) return;
+  auto span = log_.span("contributing lights");
+  frame_.restore_contributing(saved->second);
+}
+
 void SetupRun::check_counts(size_t i, const PixelCounts& counts, const std::vector<uint8_t>& lit,
                             const ViewDepths& depths, const FrameCounters& counters) {
   CaseResult& result = results_[i];
@@ -134,6 +152,7 @@ void SetupRun::counting_lap(const Step& done, bool tell) {
   uint32_t unseen = 0;
   for (uint32_t index = 0; index < workload_.frames().frames(); ++index) {
     load(index, true);
+    keep_lists(index);
     unseen += frame_.occupied_blocks().places().empty();
     std::vector<uint8_t> lit;
     ViewDepths depths;
@@ -181,7 +200,7 @@ void SetupRun::timed_lap(uint32_t lap, const Step& done) {
       config_.measure.mode == TimingMode::stages ? gpu::Timing::stages : gpu::Timing::whole;
   const auto count = static_cast<uint32_t>(cases_.size());
   for (uint32_t index = 0; index < workload_.frames().frames(); ++index) {
-    load(index, lists_ != LightLists::none);
+    load_again(index);
     for (uint32_t i : interleaved_order(count, config_.measure.seed, lap, index)) {
       stop_if_interrupted();
       ShadedAlgorithm& algorithm = *algorithms_[i];
@@ -239,7 +258,7 @@ void SetupRun::pictures(const std::filesystem::path& folder, const Step& done) {
     return std::find(list.begin(), list.end(), frame) != list.end();
   };
   for (uint32_t index : wanted) {
-    load(index, true);
+    load_again(index);
     auto span = log_.span("pictures");
     std::vector<uint8_t> lit = lit_pixels(frame_);
     for (size_t i = 0; i < cases_.size(); ++i) {

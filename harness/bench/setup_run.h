@@ -43,7 +43,11 @@ class SetupRun {
   Workload& workload() { return workload_; }
 
  private:
+  // `lists`: finds the contributing lights, in the lap before which nothing is known of them.
   void load(uint32_t index, bool lists);
+  // The same frame in later laps: what was found is uploaded, or found again where it was too much to keep.
+  void load_again(uint32_t index);
+  void keep_lists(uint32_t index);
   // Marks the case as invalid, with an error line, when the counters of the frame at hand cannot be right.
   void check_counts(size_t i, const PixelCounts& counts, const std::vector<uint8_t>& lit,
                     const ViewDepths& depths, const FrameCounters& counters);
@@ -59,6 +63,8 @@ class SetupRun {
   std::vector<uint32_t> contradictions_;  // per case: samples whose times do not agree
   LightLists lists_ = LightLists::none;   // the most that a case wants
   const FrameInput* input_ = nullptr;
+  std::map<uint32_t, SavedContributing> saved_;  // by frame
+  size_t saved_bytes_ = 0;
   Spans spans_;
 };
 

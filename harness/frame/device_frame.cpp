@@ -37,7 +37,7 @@ struct DeviceFrame::ContributingPasses {
   gpu::UploadBuffer offsets;
   std::unique_ptr<gpu::Buffer> indices;
   gpu::UploadBuffer group_offsets, group_indices;
-  std::unique_ptr<gpu::Buffer> read_indices;
+  std::unique_ptr<gpu::Buffer> read_indices, write_indices;
 
   ContributingPasses(gpu::Device& device, const FrameOptions& options, uint32_t width, uint32_t height)
       : bounds(device, contributing_bounds, "contributing: bounds", options.constants(device)),
@@ -220,6 +220,56 @@ const ContributingLights& DeviceFrame::find_contributing(const FrameInput& input
   return contributing_;
 }
 
+std::span<const uint32_t> DeviceFrame::read_lists(size_t lights) {
+  ContributingPasses& p = *passes_;
+  const size_t bytes = lights * sizeof(uint32_t);
+  p.reserve(device_, p.read_indices, bytes, "contributing lists, read back", gpu::MemoryKind::readback);
+  if (bytes > 0) {
+    commands_.begin(gpu::Timing::none);
+    commands_.read_buffer(*p.indices, bytes, *p.read_indices);
+    commands_.submit();
+  }
+  return {reinterpret_cast<const uint32_t*>(p.read_indices->mapped().data()), lights};
+}
+
+SavedContributing DeviceFrame::save_contributing(LightLists lists) {
+  const auto words = [](const gpu::UploadBuffer& buffer) {
+    const std::span<const std::byte> bytes = buffer.host().mapped().first(buffer.used());
+    std::vector<uint32_t> copy(bytes.size() / sizeof(uint32_t));
+    std::memcpy(copy.data(), bytes.data(), copy.size() * sizeof(uint32_t));
+    return copy;
+  };
+  SavedContributing saved{contributing_.count, words(passes_->offsets), {}, {}, {}};
+  const std::span<const uint32_t> of_pixels = read_lists(saved.offsets.back());
+  saved.indices.assign(of_pixels.begin(), of_pixels.end());
+  if (lists != LightLists::groups) return saved;
+  saved.group_offsets = words(passes_->group_offsets);
+  saved.group_indices = words(passes_->group_indices);
+  return saved;
+}
+
+void DeviceFrame::restore_contributing(const SavedContributing& saved) {
+  ContributingPasses& p = *passes_;
+  contributing_ = {saved.count, {}, {}};
+  upload(p.offsets, std::span(saved.offsets));
+  const size_t bytes = saved.indices.size() * sizeof(uint32_t);
+  p.reserve(device_, p.indices, bytes, "contributing lists");
+  commands_.begin(gpu::Timing::none);
+  commands_.transfer(p.offsets);
+  if (bytes > 0) {
+    p.reserve(device_, p.write_indices, bytes, "contributing lists, to be uploaded", gpu::MemoryKind::upload);
+    std::memcpy(p.write_indices->mapped().data(), saved.indices.data(), bytes);
+    commands_.read_buffer(*p.write_indices, bytes, *p.indices);
+  }
+  if (!saved.group_offsets.empty()) {
+    upload(p.group_offsets, std::span(saved.group_offsets));
+    upload(p.group_indices, std::span(saved.group_indices));
+    commands_.transfer(p.group_offsets);
+    commands_.transfer(p.group_indices);
+  }
+  commands_.submit();
+}
+
 // On the CPU: nothing of it is timed, and lists may be of any length.
 void DeviceFrame::merge_groups(std::span<const uint32_t> offsets) {
   ContributingPasses& p = *passes_;
@@ -227,13 +277,7 @@ void DeviceFrame::merge_groups(std::span<const uint32_t> offsets) {
   const uint32_t pixels = gpu_data::group_pixels(device_.limits().subgroup_size);
   const uint32_t count = blocks * groups(height, ML_BLOCK) * (ML_BLOCK * ML_BLOCK / pixels);
   const size_t bytes = size_t{offsets.back()} * 4;
-  p.reserve(device_, p.read_indices, bytes, "contributing lists, read back", gpu::MemoryKind::readback);
-  if (bytes > 0) {
-    commands_.begin(gpu::Timing::none);
-    commands_.read_buffer(*p.indices, bytes, *p.read_indices);
-    commands_.submit();
-  }
-  const auto* of_pixels = reinterpret_cast<const uint32_t*>(p.read_indices->mapped().data());
+  const uint32_t* of_pixels = read_lists(offsets.back()).data();
   auto ends =
       std::span(reinterpret_cast<uint32_t*>(p.group_offsets.map((count + size_t{1}) * 4).data()), count + 1);
   // No longer than those of pixels.

@@ -27,6 +27,15 @@ struct ContributingLights {
   std::vector<uint32_t> group = {};
 };
 
+// What shading passes need of it, kept for when the same frame comes again: to find it takes many times as long
+// as to upload it.
+struct SavedContributing {
+  std::vector<uint32_t> count, offsets, indices, group_offsets, group_indices;
+  size_t bytes() const {
+    return 4 * (count.size() + offsets.size() + indices.size() + group_offsets.size() + group_indices.size());
+  }
+};
+
 // Which lists of contributing lights are made: none, one for each pixel, or one for each group of pixels too
 // that a subgroup of the device shades (shaders/shared/pixel_groups.h).
 enum class LightLists { none, pixels, groups };
@@ -49,6 +58,10 @@ class DeviceFrame {
   // Throws SystemError when the lists are larger than one storage buffer of the device.
   const ContributingLights& find_contributing(const FrameInput& input, LightLists lists);
   const ContributingLights& contributing() const { return contributing_; }
+  // The lists that find_contributing() has just made, not none; and later, when the same frame is loaded again, in
+  // its place: of contributing() only `count` is then there.
+  SavedContributing save_contributing(LightLists lists);
+  void restore_contributing(const SavedContributing& saved);
 
   gpu::Device& device() { return device_; }
   gpu::Commands& commands() { return commands_; }
@@ -84,6 +97,8 @@ class DeviceFrame {
  private:
   void read_image(const gpu::Image& image);
   void clear_results();  // records it
+  // The lists of pixels, which are on the device.
+  std::span<const uint32_t> read_lists(size_t lights);
   // Merges the lists of pixels, which are on the device, into those of groups.
   void merge_groups(std::span<const uint32_t> offsets);
 
