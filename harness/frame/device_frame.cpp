@@ -300,7 +300,7 @@ void DeviceFrame::merge_groups(std::span<const uint32_t> offsets) {
       lights.insert(lights.end(), of_pixels + offsets[place], of_pixels + offsets[place + 1]);
     }
     std::ranges::sort(lights);
-    lights.erase(std::ranges::unique(lights).begin(), lights.end());
+    lights.erase(std::unique(lights.begin(), lights.end()), lights.end());
     std::ranges::copy(lights, merged + written);
     written += static_cast<uint32_t>(lights.size());
     for (size_t place : members) contributing_.group[place] = static_cast<uint32_t>(lights.size());
