@@ -21,7 +21,7 @@ void PrintTo(const Part& part, std::ostream* out) {
 
 // Every process compiles its programs anew on a driver that keeps none: a few parts are enough there.
 bool is_thinned(const Part& part) {
-  constexpr uint32_t kept = 5;
+  constexpr uint32_t kept = 3;
   return device().info().name.find("SwiftShader") != std::string::npos && part.seed % 100 > kept;
 }
 
