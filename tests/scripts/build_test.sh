@@ -2,6 +2,7 @@
 # scripts/build.sh: when CMake is run, with what, and how many jobs.
 . "$(dirname "$0")/lib.sh"
 PATH=$scratch/bin:$PATH
+unset MANYLIGHTS_WERROR  # CI has it
 mkdir -p "$scratch/tree/scripts" "$scratch/elsewhere"
 cp "$source_dir/scripts/build.sh" "$scratch/tree/scripts/"
 tree=$(cd "$scratch/tree" && pwd -P)
@@ -36,3 +37,7 @@ says 'cmake --preset release --fresh'
 # A failing build fails.
 stub cmake 'exit 7'
 expect 7 "$tree/scripts/build.sh" release
+
+# In CI warnings are errors, whatever the tree was configured with before.
+expect 0 env MANYLIGHTS_WERROR=1 "$tree/scripts/build.sh" release manylights
+says "cmake --preset release -DMANYLIGHTS_WERROR=ON"
