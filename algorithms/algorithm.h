@@ -105,7 +105,6 @@ struct FrameInput {
   gpu_data::ViewData view;
   gpu_data::ViewData previous_view;  // of the frame before; after a cut, and where there is none, `view`
   FrameLights lights;
-  uint32_t seed = 1;  // for algorithms that draw random numbers: those of a frame follow from it and `index`
   Threads* threads = nullptr;  // never null in prepare()
 };
 

@@ -32,18 +32,7 @@ bool light_next(inout LightCursor cursor, out uint light, out float weight) {
   return true;
 }
 
-// The whole list is one run.
-uint light_first_runs(inout LightCursor cursor, bool here) { return cursor.next < cursor.end ? 1u : 0u; }
-
-uint light_next_runs(inout LightCursor cursor, bool here) { return 0u; }
-
-bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint count) {
-  first = cursor.next;
-  count = cursor.end - cursor.next;
-  return here;
-}
-
-#define CURSOR_RUNS
+#include "shaders/one_run.glsl"
 
 LightCore cursor_light(uint light) {
   if (!DUPLICATED) return light_at(light);
@@ -51,4 +40,3 @@ LightCore cursor_light(uint light) {
   return froxel_lights[light];
 }
 #define CURSOR_LIGHT(light) cursor_light(light)
-#define CURSOR_MORE(cursor) ((cursor).next < (cursor).end)

@@ -25,7 +25,6 @@ bool light_next(inout LightCursor cursor, out uint light, out float weight) {
   light = list_indices[cursor.next++];
   return true;
 }
-#define CURSOR_MORE(cursor) ((cursor).next < (cursor).end)
 
 uint light_cell(SurfacePoint point) { return group_of_pixel(point.pixel, (view.resolution.x + 7u) / 8u, GROUP_PIXELS); }
 
@@ -35,16 +34,6 @@ LightCursor cell_begin(uint group, float depth, bool counted) {
   return cursor;
 }
 
-// The whole list is one run.
-uint light_first_runs(inout LightCursor cursor, bool here) { return cursor.next < cursor.end ? 1u : 0u; }
-
-uint light_next_runs(inout LightCursor cursor, bool here) { return 0u; }
-
-bool light_run(LightCursor cursor, uint bit, bool here, out uint first, out uint count) {
-  first = cursor.next;
-  count = cursor.end - cursor.next;
-  return here;
-}
+#include "shaders/one_run.glsl"
 
 uint run_light(uint place) { return group_indices[place]; }
-#define CURSOR_RUNS
