@@ -21,6 +21,22 @@ grep -q '^tests .*FAILED .*1 tests failed out of 7' "$scratch/out" || fail "the 
 grep -q '^static .*passed' "$scratch/out" || fail "the step after the failed one was not run"
 [ "$(tail -n 1 "$scratch/out")" = FAILED ] || fail "the last line"
 
+# The summary names the tests that failed and what the first assertion of each said: often no more of the output is seen.
+script test 'cat <<END
+1/3 Test #1: Whole.Passes ..........   Passed    0.01 sec
+2/3 Test #2: Some.Kind/of_test  # GetParam() = 3 ....***Failed    0.02 sec
+[ RUN      ] Some.Kind/of_test
+/home/tests/some_test.cpp:12: Failure
+Value of: lost
+  Actual: 3
+3/3 Test #3: Other.Runs ......***Timeout 600.00 sec
+END
+exit 8'
+expect 1 "$tree/.ci/run" tests
+says '  Some.Kind/of_test Failed: some_test.cpp:12 | Value of: lost | Actual: 3'
+says '  Other.Runs Timeout'
+never_says '  Whole.Passes'
+
 # A fuzzer that finds something fails its step; the other is heard out.
 mkdir -p "$tree/build/clang/tests/fuzz"
 for name in config gltf; do
