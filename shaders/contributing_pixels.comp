@@ -5,12 +5,13 @@
 // lights that are left.
 //
 // Iterations for each chunk of 8192 lights, whatever the masks hold: 1 for the chunk, 4 x 33 to narrow it, 8 x 33 over
-// the words that are left, and for the lights of each of these 256 words 32, with LONG_LISTS 4. So 28,000 lights take
-// fewer than 35,000, and the 262,144 of one dispatch fewer than 46,000 with LONG_LISTS: within what any driver is known
-// to allow (harness/frame/shading_loops.h).
+// the words that are left, and for the lights of each of these 256 words 32, or 4 where iterations are few
+// (loop_iterations.glsl). So 28,000 lights take fewer than 35,000, and the 262,144 of one dispatch then fewer than
+// 46,000.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/contributing_common.glsl"
+#include "shaders/loop_iterations.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -85,18 +86,11 @@ void main() {
       for (uint words = occupied[part]; words != 0u; words &= words - 1u) {
         uint word = part * 32u + uint(findLSB(words));
         uint mask = narrowed[word], base = (chunk + word) * 32u;
+#define TAKE(n) take(point, lit, base, mask, next, count, hash);
         while (mask != 0u) {
-          take(point, lit, base, mask, next, count, hash);
-          if (LONG_LISTS) {
-            take(point, lit, base, mask, next, count, hash);
-            take(point, lit, base, mask, next, count, hash);
-            take(point, lit, base, mask, next, count, hash);
-            take(point, lit, base, mask, next, count, hash);
-            take(point, lit, base, mask, next, count, hash);
-            take(point, lit, base, mask, next, count, hash);
-            take(point, lit, base, mask, next, count, hash);
-          }
+          STEPS_OF_1(TAKE)
         }
+#undef TAKE
       }
     barrier();
   }

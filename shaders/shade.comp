@@ -105,67 +105,10 @@ void add_light(SurfacePoint point, LightCore data, LightSample from, float weigh
 #endif
 }
 
+#include "shaders/shade_alone.glsl"
 #if defined(CURSOR_RUNS) && !defined(FORWARD)
 #include "shaders/shade_together.glsl"
 #endif
-
-#define SHADE_NEXT(next_light)                                    \
-  if (!next_light(cursor, light, weight)) break;                  \
-  if (light != no_light) {                                        \
-    data = CURSOR_LIGHT(light);                                   \
-    if (test_light(point, data, from)) add_light(point, data, from, weight, sum); \
-  }
-// Every pixel first looks for its next light that contributes, then all shade theirs: so the costly part runs about as
-// often as lights contribute and not as often as they are tested, also where a processor runs its lanes in step. With
-// long lists one loop does both. Loops leave by `break`: with a condition at their end Mesa's software driver lost
-// lights, as if pixels that had left a loop took what others found in later turns.
-#define SHADE_LOOP(next_light)                                    \
-  if (LONG_LISTS) {                                               \
-    while (true) {                                                \
-      SHADE_NEXT(next_light)                                      \
-      SHADE_NEXT(next_light)                                      \
-      SHADE_NEXT(next_light)                                      \
-      SHADE_NEXT(next_light)                                      \
-      SHADE_NEXT(next_light)                                      \
-      SHADE_NEXT(next_light)                                      \
-      SHADE_NEXT(next_light)                                      \
-      SHADE_NEXT(next_light)                                      \
-    }                                                             \
-  } else {                                                        \
-    while (true) {                                                \
-      bool found = false;                                         \
-      while (!found) {                                            \
-        if (!next_light(cursor, light, weight)) break;            \
-        if (light == no_light) continue;                          \
-        data = CURSOR_LIGHT(light);                               \
-        found = test_light(point, data, from);                    \
-      }                                                           \
-      if (!found) break;                                          \
-      data.intensity = CURSOR_LIGHT(light).intensity;             \
-      add_light(point, data, from, weight, sum);                  \
-      if (!CURSOR_MORE(cursor)) break;                            \
-    }                                                             \
-  }
-
-void shade_alone(SurfacePoint point, inout VEC3 sum) {
-  LightCursor cursor = light_begin(point);
-  uint light;
-  float weight;
-  LightCore data;
-  LightSample from;
-#ifdef CURSOR_CASES
-  uint walk = cursor_case(cursor);
-  if (walk == 0u) {
-    SHADE_LOOP(light_next_in_list)
-  } else if (walk == 1u) {
-    SHADE_LOOP(light_next_shared)
-  } else {
-    SHADE_LOOP(light_next)
-  }
-#else
-  SHADE_LOOP(light_next)
-#endif
-}
 
 #ifdef FORWARD
 #include "shaders/shade_forward.glsl"
@@ -199,16 +142,13 @@ void main() {
   VEC3 sum = VEC3(0);
   if (WALK_RANGES && first_light != 0u && inside) load_sums(pixel, sum);
   SurfacePoint point;
+  const bool lit = inside && surface_to_light(pixel, point);
 #ifdef CURSOR_RUNS
-  if (WALK_TOGETHER) {
-    const bool lit = inside && surface_to_light(pixel, point);
-    // With long lists a subgroup that lies in several cells would take too many iterations: its pixels walk alone.
-    const bool together = !LONG_LISTS || in_one_cell(point, lit);
-    shade_together(point, lit && together, sum);
-    if (LONG_LISTS && lit && !together) shade_alone(point, sum);
-  } else
+  if (WALK_TOGETHER)
+    shade_together(point, lit, sum);
+  else
 #endif
-      if (inside && surface_to_light(pixel, point))
+      if (lit)
     shade_alone(point, sum);
   if (!inside) return;
   if (EFFECT_EMISSION && !SPLIT_TARGETS && !(WALK_RANGES && first_light != 0u))

@@ -3,6 +3,7 @@
 #ifndef ML_SHADE_TOGETHER_GLSL
 #define ML_SHADE_TOGETHER_GLSL
 #include "shaders/light_exchange.glsl"
+#include "shaders/loop_iterations.glsl"
 
 // What shapes need beyond a light's core goes with it where that is cheaper than to fetch it in every lane: in small
 // subgroups.
@@ -37,29 +38,20 @@ void add_lane(SurfacePoint point, LightCore own, LightExtra own_extra, inout uin
   contributing &= contributing - 1u;
 }
 
-void test_four(SurfacePoint point, LightCore own, LightExtra own_extra, uint lane, uint batch, bool wanted,
-               inout uint contributing) {
-  test_lane(point, own, own_extra, lane, batch, wanted, contributing);
-  test_lane(point, own, own_extra, lane + 1u, batch, wanted, contributing);
-  test_lane(point, own, own_extra, lane + 2u, batch, wanted, contributing);
-  test_lane(point, own, own_extra, lane + 3u, batch, wanted, contributing);
-}
-
-// Tests a batch of up to as many lights as there are lanes; a bit for each that contributes. Iterations are few on some
-// drivers (harness/frame/shading_loops.h): four lights each, with long lists eight, and in small subgroups then none
-// but the caller's.
+// Tests a batch of up to as many lights as there are lanes; a bit for each that contributes. A small subgroup's is one
+// iteration at most: no loop where iterations are few.
 uint test_batch(SurfacePoint point, LightCore own, LightExtra own_extra, uint batch, bool wanted) {
   uint contributing = 0u, i = 0u;
-  if (LONG_LISTS && small_subgroup) {
-    test_four(point, own, own_extra, 0u, batch, wanted, contributing);
-    test_four(point, own, own_extra, 4u, batch, wanted, contributing);
+#define TEST_LANE(n) test_lane(point, own, own_extra, i + n, batch, wanted, contributing);
+  if (!loops_in_loops && small_subgroup) {
+    STEPS_OF_4(TEST_LANE)
   } else {
     do {
-      test_four(point, own, own_extra, i, batch, wanted, contributing);
-      if (LONG_LISTS) test_four(point, own, own_extra, i + 4u, batch, wanted, contributing);
-      i += LONG_LISTS ? 8u : 4u;
+      STEPS_OF_4(TEST_LANE)
+      i += STRIDE_OF(4u);
     } while (i < batch);
   }
+#undef TEST_LANE
   return contributing;
 }
 
@@ -89,18 +81,11 @@ void shade_runs(SurfacePoint point, LightCursor cursor, uint runs, bool here, in
       left -= batch;
     } while (TEST_AHEAD && !subgroup_any(contributing != 0u) && (runs | left) != 0u);
     if (subgroup_any(contributing != 0u)) {
+#define ADD_LANE(n) add_lane(point, own, own_extra, contributing, sum);
       do {
-        add_lane(point, own, own_extra, contributing, sum);
-        if (LONG_LISTS) {
-          add_lane(point, own, own_extra, contributing, sum);
-          add_lane(point, own, own_extra, contributing, sum);
-          add_lane(point, own, own_extra, contributing, sum);
-          add_lane(point, own, own_extra, contributing, sum);
-          add_lane(point, own, own_extra, contributing, sum);
-          add_lane(point, own, own_extra, contributing, sum);
-          add_lane(point, own, own_extra, contributing, sum);
-        }
+        STEPS_OF_1(ADD_LANE)
       } while (subgroup_any(contributing != 0u));
+#undef ADD_LANE
     }
   } while ((runs | left) != 0u);
 }
@@ -108,7 +93,7 @@ void shade_runs(SurfacePoint point, LightCursor cursor, uint runs, bool here, in
 // The pixels that lie in one cell walk it together, one cell after the other. `lit`: false for lanes that only help.
 // Loops test at their end: where a processor runs its lanes in step, a turn that finds nothing costs as much as any
 // other.
-void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
+void shade_cells(SurfacePoint point, bool lit, inout VEC3 sum) {
   const uint none = 0xffffffffu;
   uint left = lit ? light_cell(point) : none;
   uint cell = subgroup_min(left);
@@ -131,6 +116,13 @@ void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
 bool in_one_cell(SurfacePoint point, bool lit) {
   const uint cell = lit ? light_cell(point) : 0xffffffffu, lowest = subgroup_min(cell);
   return subgroupAll(!lit || cell == lowest);
+}
+
+// All pixels of a subgroup. Those that cannot walk together walk alone.
+void shade_together(SurfacePoint point, bool lit, inout VEC3 sum) {
+  const bool together = subgroups_of_several_cells || in_one_cell(point, lit);
+  shade_cells(point, lit && together, sum);
+  if (!subgroups_of_several_cells && lit && !together) shade_alone(point, sum);
 }
 
 #endif

@@ -2,6 +2,7 @@
 // tiles.comp shares: coarse[] and survivors[].
 #ifndef ML_PRUNE_GLSL
 #define ML_PRUNE_GLSL
+#include "shaders/loop_iterations.glsl"
 
 // How many of the chunk's lights, of which there are at most 64, come before a visible index.
 uint lights_before(uint begin, uint count, uint value) {
@@ -31,18 +32,16 @@ void set_bit(uint at, inout uvec2 mask) {
     mask.y |= 1u << (at - 32u);
 }
 
-// One loop for each type of volume. Several lights an iteration where there are many (harness/frame/shading_loops.h).
+// One loop for each type of volume.
 #define PRUNE(volume, end, at) \
   if (at < end && volume(points, light_at(visible_lights[coarse[begin + at]]))) set_bit(at, mask);
-#define PRUNE_LOOP(volume, from, end)                                                        \
-  for (uint i = from; i < end; i += LONG_LISTS ? 8u : 2u) {                                  \
-    PRUNE(volume, end, i)                                                                    \
-    PRUNE(volume, end, (i + 1u))                                                             \
-    if (LONG_LISTS) {                                                                        \
-      PRUNE(volume, end, (i + 2u)) PRUNE(volume, end, (i + 3u))                              \
-      PRUNE(volume, end, (i + 4u)) PRUNE(volume, end, (i + 5u))                              \
-      PRUNE(volume, end, (i + 6u)) PRUNE(volume, end, (i + 7u))                              \
-    }                                                                                        \
+#define PRUNE_BALL(n) PRUNE(in_ball, end, (i + n))
+#define PRUNE_CONE(n) PRUNE(in_cone, end, (i + n))
+#define PRUNE_BOX(n) PRUNE(in_box_volume, end, (i + n))
+#define PRUNE_LOOP(step, from, to)                                       \
+  {                                                                      \
+    const uint end = to;                                                 \
+    for (uint i = from; i < end; i += STRIDE_OF(2u)) { STEPS_OF_2(step) } \
   }
 
 uvec2 prune_by_type(uint begin, uint count) {
@@ -51,15 +50,15 @@ uvec2 prune_by_type(uint begin, uint count) {
              boxes = lights_before(begin, count, visible.first_box);
   const uint probes = probes_from(begin, count);
   if (any(points.lit)) {
-    PRUNE_LOOP(in_ball, 0u, cones)
-    PRUNE_LOOP(in_cone, cones, boxes)
-    PRUNE_LOOP(in_box_volume, boxes, probes)
+    PRUNE_LOOP(PRUNE_BALL, 0u, cones)
+    PRUNE_LOOP(PRUNE_CONE, cones, boxes)
+    PRUNE_LOOP(PRUNE_BOX, boxes, probes)
     if (EFFECT_PROBES) {
       const uint probe_cones = lights_before(begin, count, visible.first_probe_cone);
       const uint probe_boxes = lights_before(begin, count, visible.first_probe_box);
-      PRUNE_LOOP(in_ball, probes, probe_cones)
-      PRUNE_LOOP(in_cone, probe_cones, probe_boxes)
-      PRUNE_LOOP(in_box_volume, probe_boxes, count)
+      PRUNE_LOOP(PRUNE_BALL, probes, probe_cones)
+      PRUNE_LOOP(PRUNE_CONE, probe_cones, probe_boxes)
+      PRUNE_LOOP(PRUNE_BOX, probe_boxes, count)
     }
   }
   return mask;
@@ -83,19 +82,12 @@ uvec2 prune_together(uint begin, uint count) {
     if (any_extras) own_extra = extra_ahead(own);
     const uint lanes = min(count - first, SUBGROUP_LANES);
     uint lane = 0u;
+#define TEST_OF_LANE(n) test_of_lane(own, own_extra, lane + n, lanes, first, mask);
     do {
-      test_of_lane(own, own_extra, lane, lanes, first, mask);
-      test_of_lane(own, own_extra, lane + 1u, lanes, first, mask);
-      if (LONG_LISTS) {
-        test_of_lane(own, own_extra, lane + 2u, lanes, first, mask);
-        test_of_lane(own, own_extra, lane + 3u, lanes, first, mask);
-        test_of_lane(own, own_extra, lane + 4u, lanes, first, mask);
-        test_of_lane(own, own_extra, lane + 5u, lanes, first, mask);
-        test_of_lane(own, own_extra, lane + 6u, lanes, first, mask);
-        test_of_lane(own, own_extra, lane + 7u, lanes, first, mask);
-      }
-      lane += LONG_LISTS ? 8u : 2u;
+      STEPS_OF_2(TEST_OF_LANE)
+      lane += STRIDE_OF(2u);
     } while (lane < lanes);
+#undef TEST_OF_LANE
   }
   return mask;
 }

@@ -26,7 +26,7 @@ script test 'cat <<END
 1/3 Test #1: Whole.Passes ..........   Passed    0.01 sec
 2/3 Test #2: Some.Kind/of_test  # GetParam() = 3 ....***Failed    0.02 sec
 [ RUN      ] Some.Kind/of_test
-/home/tests/some_test.cpp:12: Failure
+tests/some_test.cpp:12: Failure
 Value of: lost
   Actual: 3
 3/3 Test #3: Other.Runs ......***Timeout 600.00 sec
