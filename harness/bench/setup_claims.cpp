@@ -22,11 +22,11 @@ void SetupProof::add_reference_claims(std::vector<Claim>& list) const {
                   reference_wrong_ == 0 && reference_pixels_ > 0,
                   fmt::format("{} of {} sampled pixels differ, {} frames", reference_wrong_,
                               reference_pixels_, frames_)});
-  list.push_back({reference, "the reference lists are the double-precision oracle's", oracle_wrong_ == 0,
+  list.push_back({reference, "the reference lists are the double-precision oracle's", to_truth_.wrong == 0,
                   fmt::format("{} of {} points differ, {} more within rounding of a light's edge",
-                              oracle_wrong_, to_truth_.pixels, oracle_marginal_)});
-  list.push_back({reference, "radiance is the double-precision oracle's within rounding", to_truth_.holds(),
-                  to_truth_.evidence("points")});
+                              to_truth_.wrong, to_truth_.radiance.pixels, to_truth_.marginal)});
+  list.push_back({reference, "radiance is the double-precision oracle's within rounding",
+                  to_truth_.radiance.holds(), to_truth_.radiance.evidence("points")});
   if (brute64_)
     list.push_back({reference, "brute force in single precision is its double within rounding",
                     to_double_.holds(), to_double_.evidence("pixels")});
@@ -54,11 +54,9 @@ void SetupProof::add_case_claims(size_t i, std::vector<Claim>& list) const {
   }
   list.push_back({id, "every pixel is finite", t.not_finite == 0,
                   fmt::format("{} of {} are not", t.not_finite, t.pixels)});
-  list.push_back(
-      {id, "same inputs, same bits", t.same_bytes && t.differing == 0,
-       fmt::format(
-           "counters and images of two runs, uploads of 1, 2 and 7 threads: {}",
-           t.same_bytes && t.differing == 0 ? "identical" : fmt::format("{} pixels differ", t.differing))});
+  list.push_back({id, "same inputs, same bits", t.unlike.empty(),
+                  fmt::format("counters and images of two runs, uploads of 1, 2 and 7 threads: {}",
+                              t.unlike.empty() ? "identical" : "not the same: " + t.unlike)});
 }
 
 }  // namespace ml

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algorithms/heap_memory.h"
-#include "harness/accuracy/image_metrics.h"
 #include "harness/base/error.h"
 #include "harness/base/random.h"
 #include "harness/bench/bookkeeping.h"
@@ -39,25 +37,6 @@ const AlgorithmEntry& entry_that(Predicate predicate) {
   throw std::logic_error("the registry has no reference algorithm");
 }
 
-bool same_for_all_thread_counts(const AlgorithmEntry& entry, const Parameters& parameters,
-                                const FrameInput& input, size_t limit) {
-  std::optional<std::vector<std::byte>> first;
-  for (unsigned count : {1u, 2u, 7u}) {
-    Threads threads(count);
-    FrameInput copy = input;
-    copy.threads = &threads;
-    auto algorithm = entry.create(parameters);
-    HeapMemory memory(true, limit);
-    Spans spans;
-    algorithm->prepare(copy, memory, spans);
-    if (!first)
-      first = memory.all();
-    else if (*first != memory.all())
-      return false;
-  }
-  return true;
-}
-
 // Seconds that steps are expected to take, on two cores of a software device.
 struct ProofSeconds {
   double programs, reference, proof;
@@ -83,7 +62,6 @@ SetupProof::SetupProof(gpu::Device& device, const Config& config, const std::vec
       setup_(config.setups[cases.front().setup]),
       cases_(cases),
       options_(options),
-      device_(device),
       workload_(setup_, config.measure.threads),
       frame_(device, *workload_.scene(), workload_.options(), setup_.width, setup_.height),
       tallies_(cases.size()) {
@@ -137,12 +115,8 @@ void SetupProof::prove(const std::vector<uint32_t>& frames, Progress& progress) 
   const ProofSeconds seconds = proof_seconds(setup_, options_);
   for (uint32_t index : frames) {
     stop_if_interrupted();
-    const FrameInput& input = workload_.frames().at(index);
-    frame_.load(input);
-    frame_.find_contributing(input, lists_);
-    lit_ = lit_pixels(frame_);
-    depths_ = view_depths(frame_, input.view);
-    prove_references(input, index);
+    FrameTruth truth(frame_, workload_.frames().at(index), lists_);
+    prove_references(truth, index);
     const bool first = index == frames.front();
     auto advance = [&](StepKind kind, double expected, const std::string& what) {
       progress.advance(first ? StepKind::programs : kind, first ? seconds.programs : expected, what);
@@ -150,120 +124,65 @@ void SetupProof::prove(const std::vector<uint32_t>& frames, Progress& progress) 
     advance(StepKind::reference, seconds.reference, "references");
     for (size_t i = 0; i < cases_.size(); ++i) {
       stop_if_interrupted();
-      prove_case(i, input);
+      prove_case(i, truth);
       advance(StepKind::proof, seconds.proof, cases_[i].id);
     }
   }
 }
 
-std::vector<size_t> SetupProof::sampled_pixels() const {
-  std::vector<size_t> pixels;
-  for (const glm::u16vec2 block : blocks_)
-    for (uint32_t i = 0; i < 64; ++i) {
-      const uint32_t x = block.x * 8 + i % 8, y = block.y * 8 + i / 8;
-      if (x < setup_.width && y < setup_.height) pixels.push_back(size_t{y} * setup_.width + x);
-    }
-  return pixels;
-}
-
-void SetupProof::prove_references(const FrameInput& input, uint32_t index) {
+void SetupProof::prove_references(FrameTruth& truth, uint32_t index) {
   ++frames_;
-  ideal_->count(frame_, input);
+  ideal_->count(frame_, truth.input());
   ideal_image_ = result_picture(frame_);
-  oracle_.emplace(frame_, input);
-  judge_.emplace(*oracle_, workload_.options().effects.specular, frame_.contributing().count);
-  const uint64_t lights = std::max<uint64_t>(input.lights.count(), 1);
-  blocks_ = sampled_blocks(setup_.width, setup_.height,
-                           std::max<uint64_t>(options_.brute_force_tests / (64 * lights), 16),
-                           hash_u32(config_.measure.seed, index));
-  sampled_ = sampled_pixels();
-  prove_brute_force(input);
-  prove_oracle(index);
+  const uint64_t lights = std::max<uint64_t>(truth.input().lights.count(), 1);
+  const std::vector<glm::u16vec2> blocks = sampled_blocks(
+      setup_.width, setup_.height, std::max<uint64_t>(options_.brute_force_tests / (64 * lights), 16),
+      hash_u32(config_.measure.seed, index));
+  sampled_ = pixels_of(blocks, setup_.width, setup_.height);
+  prove_brute_force(truth, blocks);
+  prove_oracle(truth, index);
 }
 
-void SetupProof::prove_brute_force(const FrameInput& input) {
-  Spans spans;
-  brute_->prepare(input, spans, frame_.occupied_blocks().places());
-  brute_->count_blocks(frame_, input, blocks_);
-  brute_image_ = result_picture(frame_);
-  const PixelCounts counts = read_counts(frame_);
-  const ContributingLights& truth = frame_.contributing();
+void SetupProof::prove_brute_force(FrameTruth& truth, const std::vector<glm::u16vec2>& blocks) {
+  ReferenceProof once = prove_reference(*brute_, truth, blocks);
   reference_pixels_ += sampled_.size();
-  for (size_t pixel : sampled_) {
-    reference_wrong_ +=
-        counts.contributing[pixel] != truth.count[pixel] || counts.hash[pixel] != truth.hash[pixel];
-    if (!lit_[pixel]) continue;
-    ++reference_lit_;
-    reference_short_ += counts.tested[pixel] != input.lights.count();
-  }
+  reference_wrong_ += once.mismatched;
+  reference_lit_ += once.lit;
+  reference_short_ += once.cut_short;
+  brute_image_ = std::move(once.picture);
   if (!brute64_) return;
-  brute64_->prepare(input, spans, frame_.occupied_blocks().places());
-  brute64_->count_blocks(frame_, input, blocks_);
-  const Picture twice = result_picture(frame_);
+  const Picture twice = prove_reference(*brute64_, truth, blocks).picture;
   for (size_t pixel : sampled_)
-    judge_->against_each_other(brute_image_, twice, pixel, lit_[pixel] != 0, to_double_);
+    truth.judge().against_each_other(brute_image_, twice, pixel, truth.lit()[pixel] != 0, to_double_);
 }
 
-void SetupProof::prove_oracle(uint32_t index) {
+void SetupProof::prove_oracle(FrameTruth& truth, uint32_t index) {
   std::vector<uint32_t> lit;
-  for (uint32_t i = 0; i < lit_.size(); ++i)
-    if (lit_[i]) lit.push_back(i);
+  for (uint32_t i = 0; i < truth.lit().size(); ++i)
+    if (truth.lit()[i]) lit.push_back(i);
   if (lit.empty()) return;
   Random random(hash_u32(config_.measure.seed, index, 7));
-  for (uint32_t n = 0; n < options_.oracle_points; ++n) {
-    const uint32_t pixel = lit[random.below(static_cast<uint32_t>(lit.size()))];
-    const OracleAnswer& answer = judge_->answer(pixel);
-    const uint32_t count = frame_.contributing().count[pixel];
-    const uint32_t apart = std::max(count, answer.contributing) - std::min(count, answer.contributing);
-    oracle_marginal_ += apart != 0 && apart <= answer.marginal;
-    oracle_wrong_ += apart > answer.marginal;
-    judge_->against_truth(ideal_image_, pixel, to_truth_);
-  }
+  for (uint32_t n = 0; n < options_.oracle_points; ++n)
+    prove_point(truth, ideal_image_, lit[random.below(static_cast<uint32_t>(lit.size()))], to_truth_);
 }
 
-void SetupProof::prove_case(size_t i, const FrameInput& input) {
+void SetupProof::prove_case(size_t i, FrameTruth& truth) {
+  const FrameProof proof = prove_frame(*algorithms_[i], truth);
   Tally& tally = tallies_[i];
-  ShadedAlgorithm& algorithm = *algorithms_[i];
-  Spans spans;
-  algorithm.prepare(input, spans, frame_.occupied_blocks().places());
-  const uint64_t digest = algorithm.upload_digest();
-  algorithm.count(frame_, input);
-  PixelCounts counts = read_counts(frame_);
-  Picture image = result_picture(frame_);
-  FrameCounters counters = summarize(counts, frame_.contributing(), lit_, algorithm.counters());
-  tally.lost += counters.lost;
-  tally.overflow_lights += counters.prepare.overflow_lights;
-  tally.overflow_tiles += counters.prepare.overflow_tiles;
-  tally.mismatched += counters.mismatched_pixels;
-  tally.pixels += lit_.size();
-  tally.lights = std::max<uint64_t>(tally.lights, input.lights.count());
-  tally.not_finite += compare_images(image, ideal_image_).not_finite;
-  for (size_t pixel : sampled_)
-    judge_->against_each_other(image, brute_image_, pixel, lit_[pixel] != 0, tally.to_brute);
-  for (size_t pixel = 0; pixel < lit_.size(); ++pixel)
-    judge_->against_each_other(image, ideal_image_, pixel, lit_[pixel] != 0, tally.to_ideal);
-  if (tally.miscounted.empty())
-    tally.miscounted = miscounted(entries_[i]->info, counts, frame_.contributing(), lit_,
-                                  input.lights.count(), algorithm.wanted_lists());
-  if (tally.miscounted.empty())
-    tally.miscounted = mislisted(counts, depths_, [&](glm::uvec2 pixel, float depth) {
-      return algorithm.lights_listed(pixel, depth);
-    });
-
-  // The second time, and the timed program instead of the counting one.
-  algorithm.prepare(input, spans, frame_.occupied_blocks().places());
-  tally.same_bytes &= digest == algorithm.upload_digest();
-  algorithm.count(frame_, input);
-  PixelCounts again = read_counts(frame_);
-  tally.same_bytes &= counts.listed == again.listed && counts.tested == again.tested &&
-                      counts.contributing == again.contributing && counts.nodes == again.nodes &&
-                      counts.hash == again.hash;
-  tally.differing += compare_images(result_picture(frame_), image).differing_bits;
-  algorithm.shade(frame_, input, gpu::Timing::none);
-  tally.differing += compare_images(result_picture(frame_), image).differing_bits;
-  const Parameters& parameters = setup_.algorithms[cases_[i].algorithm].parameters;
-  tally.same_bytes &=
-      same_for_all_thread_counts(*entries_[i], parameters, input, device_.limits().storage_buffer_range);
+  tally.lost += proof.counters.lost;
+  tally.overflow_lights += proof.counters.prepare.overflow_lights;
+  tally.overflow_tiles += proof.counters.prepare.overflow_tiles;
+  tally.mismatched += proof.counters.mismatched_pixels;
+  tally.pixels += truth.lit().size();
+  tally.lights = std::max<uint64_t>(tally.lights, truth.input().lights.count());
+  tally.not_finite += proof.not_finite;
+  if (tally.miscounted.empty()) tally.miscounted = proof.miscounted;
+  if (tally.unlike.empty()) tally.unlike = proof.unlike;
+  auto compare = [&](size_t pixel, const Picture& reference, PictureProof& sums) {
+    truth.judge().against_each_other(proof.picture, reference, pixel, truth.lit()[pixel] != 0, sums);
+  };
+  for (size_t pixel : sampled_) compare(pixel, brute_image_, tally.to_brute);
+  for (size_t pixel = 0; pixel < truth.lit().size(); ++pixel) compare(pixel, ideal_image_, tally.to_ideal);
 }
 
 }  // namespace ml

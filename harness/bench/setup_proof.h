@@ -2,11 +2,9 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "harness/bench/counting.h"
-#include "harness/bench/picture_proof.h"
+#include "harness/bench/frame_proof.h"
 #include "harness/bench/progress.h"
 #include "harness/bench/verify.h"
 #include "harness/bench/workload.h"
@@ -33,20 +31,19 @@ class SetupProof {
   // Sums over the frames of a case.
   struct Tally {
     uint64_t lost = 0, overflow_lights = 0, overflow_tiles = 0, mismatched = 0, pixels = 0, lights = 0,
-             not_finite = 0, differing = 0;
+             not_finite = 0;
     PictureProof to_brute, to_ideal;
-    bool same_bytes = true;
-    std::string miscounted;  // why the counters contradict themselves, of the first frame in which they do
+    // Why the counters contradict themselves, and what was not the same again, of the first frame in which
+    // it is so.
+    std::string miscounted, unlike;
   };
 
   // Tells what the level brings and what of it is used.
   void look(const std::vector<uint32_t>& frames);
-  void prove_references(const FrameInput& input, uint32_t index);
-  void prove_brute_force(const FrameInput& input);
-  void prove_oracle(uint32_t index);
-  void prove_case(size_t i, const FrameInput& input);
-  // The sampled pixels of the frame.
-  std::vector<size_t> sampled_pixels() const;
+  void prove_references(FrameTruth& truth, uint32_t index);
+  void prove_brute_force(FrameTruth& truth, const std::vector<glm::u16vec2>& blocks);
+  void prove_oracle(FrameTruth& truth, uint32_t index);
+  void prove_case(size_t i, FrameTruth& truth);
   void add_reference_claims(std::vector<Claim>& list) const;
   void add_case_claims(size_t i, std::vector<Claim>& list) const;
 
@@ -54,7 +51,6 @@ class SetupProof {
   const Setup& setup_;
   std::vector<Case> cases_;
   const VerifyOptions& options_;
-  gpu::Device& device_;
   Workload workload_;
   DeviceFrame frame_;
   std::vector<const AlgorithmEntry*> entries_;
@@ -63,17 +59,12 @@ class SetupProof {
   std::vector<Tally> tallies_;
   LightLists lists_ = LightLists::pixels;  // for ideal
   // Of the frame at hand.
-  std::vector<uint8_t> lit_;
-  ViewDepths depths_;
-  std::vector<glm::u16vec2> blocks_;
-  std::vector<size_t> sampled_;
+  std::vector<size_t> sampled_;  // pixels
   Picture brute_image_, ideal_image_;
-  std::optional<OracleFrame> oracle_;
-  std::optional<PictureJudge> judge_;
   // Over all frames.
   uint64_t reference_pixels_ = 0, reference_lit_ = 0, reference_short_ = 0, reference_wrong_ = 0;
-  uint64_t oracle_wrong_ = 0, oracle_marginal_ = 0;
-  PictureProof to_truth_, to_double_;
+  PointProof to_truth_;
+  PictureProof to_double_;
   uint32_t frames_ = 0;
 };
 

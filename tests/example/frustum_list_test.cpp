@@ -7,10 +7,9 @@
 #include <cstring>
 
 #include "algorithms/heap_memory.h"
-#include "harness/bench/counting.h"
+#include "harness/bench/frame_proof.h"
 #include "harness/bench/workload.h"
 #include "harness/config/config.h"
-#include "harness/frame/shaded_algorithm.h"
 
 namespace ml {
 namespace {
@@ -41,20 +40,18 @@ TEST_P(FrustumList, LosesNoLight) {
   DeviceFrame frame(device, *workload.scene(), workload.options(), frames.width(), frames.height());
   const AlgorithmEntry entry = frustum_list_entry();
   ShadedAlgorithm algorithm(device, entry, with_sides(entry, GetParam()), workload.options());
-  Spans spans;
   double contributing = 0;
   for (uint32_t index = 0; index < frames.frames(); ++index) {
-    const FrameInput& input = frames.at(index);
-    frame.load(input);
-    frame.find_contributing(input, LightLists::none);
-    algorithm.prepare(input, spans, frame.occupied_blocks().places());
-    algorithm.count(frame, input);
-    FrameCounters counters =
-        summarize(read_counts(frame), frame.contributing(), lit_pixels(frame), algorithm.counters());
-    EXPECT_EQ(counters.lost, 0u) << "frame " << index;
-    EXPECT_EQ(counters.mismatched_pixels, 0u) << "frame " << index;
-    EXPECT_DOUBLE_EQ(counters.listed, static_cast<double>(counters.prepare.in_frustum)) << "frame " << index;
-    contributing += counters.contributing;
+    SCOPED_TRACE(index);
+    const FrameTruth truth(frame, frames.at(index), LightLists::none);
+    const FrameProof proof = prove_frame(algorithm, truth);
+    EXPECT_EQ(proof.counters.lost, 0u);
+    EXPECT_EQ(proof.counters.mismatched_pixels, 0u);
+    EXPECT_EQ(proof.not_finite, 0u);
+    EXPECT_EQ(proof.miscounted, "");
+    EXPECT_EQ(proof.unlike, "");
+    EXPECT_DOUBLE_EQ(proof.counters.listed, static_cast<double>(proof.counters.prepare.in_frustum));
+    contributing += proof.counters.contributing;
   }
   EXPECT_GT(contributing, 0);  // there was something to lose
   EXPECT_EQ(device.validation_messages(), std::vector<std::string>{});

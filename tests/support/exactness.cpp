@@ -9,8 +9,6 @@
 #include "algorithms/device_algorithm.h"
 #include "harness/accuracy/image_metrics.h"
 #include "harness/base/random.h"
-#include "harness/bench/case_pictures.h"
-#include "harness/bench/picture_proof.h"
 #include "harness/lights/set.h"
 
 namespace ml::test {
@@ -101,14 +99,6 @@ ShadedAlgorithm ideal_with(const char* walk, const FrameOptions& options) {
   Parameters parameters(entry.parameters);
   parameters.set(entry.parameters, "walk", std::string(walk), "test");
   return ShadedAlgorithm(device(), entry, parameters, options);
-}
-
-// Pixels whose count or set of contributing lights is not the reference's.
-uint64_t mismatches(const PixelCounts& counts, const ContributingLights& truth) {
-  uint64_t wrong = 0;
-  for (size_t i = 0; i < truth.count.size(); ++i)
-    wrong += counts.contributing[i] != truth.count[i] || counts.hash[i] != truth.hash[i];
-  return wrong;
 }
 
 }  // namespace
@@ -204,115 +194,63 @@ Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& li
   storage_.fill(lights, camera.position, frame_.options().effects.shapes());
   input_.view = view_data(camera, width(), height(), static_cast<uint32_t>(lights.size()));
   input_.lights = storage_.lights();
-  frame_.load(input_);
+  FrameTruth truth(frame_, input_, LightLists::groups);
   Seen seen;
-  seen.truth = frame_.find_contributing(input_, LightLists::groups);
-  seen.lit = ml::lit_pixels(frame_);
+  seen.truth = truth.contributing();
+  seen.lit = truth.lit();
 
-  Spans spans;
-  brute_.prepare(input_, spans, frame_.occupied_blocks().places());
-  brute_.count(frame_, input_);
-  seen.image = result_picture(frame_);
-  seen.reference = read_counts(frame_);
-  EXPECT_EQ(mismatches(seen.reference, seen.truth), 0u) << "pixels, brute_force";
-  uint64_t cut_short = 0;
-  for (size_t i = 0; i < seen.lit.size(); ++i)
-    cut_short += seen.lit[i] && seen.reference.tested[i] != input_.lights.count();
-  EXPECT_EQ(cut_short, 0u) << "pixels for which brute force did not look at every light";
+  ReferenceProof reference = prove_reference(brute_, truth);
+  EXPECT_EQ(reference.mismatched, 0u) << "pixels, brute_force";
+  EXPECT_EQ(reference.cut_short, 0u) << "pixels for which brute force did not look at every light";
+  seen.image = std::move(reference.picture);
+  seen.reference = std::move(reference.counts);
   EXPECT_EQ(compare_images(seen.image, seen.image).not_finite, 0u) << "brute_force";
 
   for (ShadedAlgorithm& ideal : ideals_) {
     SCOPED_TRACE(ideal.wanted_lists() == LightLists::groups ? "ideal, together" : "ideal");
-    ideal.prepare(input_, spans, frame_.occupied_blocks().places());
-    ideal.count(frame_, input_);
-    const PixelCounts counts = read_counts(frame_);
-    EXPECT_EQ(mismatches(counts, seen.truth), 0u) << "pixels";
-    EXPECT_EQ(
-        miscounted(ideal.info(), counts, seen.truth, seen.lit, input_.lights.count(), ideal.wanted_lists()),
-        "");
-    expect_same_image(result_picture(frame_), seen);
+    expect_frame(prove_frame(ideal, truth), seen, truth);
   }
   for (const Trial& trial : trials) {
     SCOPED_TRACE(trial.text());
-    expect_trial(trial, seen);
+    FrameProof proof = prove_frame(*slot_of(trial).shaded, truth);
+    expect_frame(proof, seen, truth);
+    seen.pictures.push_back(std::move(proof.picture));
+    seen.counts.push_back(std::move(proof.counts));
+    seen.prepared.push_back(proof.counters.prepare);
   }
-  if (oracle_points) expect_oracle(seen, oracle_points);
+  if (oracle_points) expect_oracle(seen, truth, oracle_points);
   return seen;
 }
 
-void Exactness::expect_same_image(const Picture& image, const Seen& seen) {
-  const ImageDifference difference = compare_images(image, seen.image, 1e-30);
+void Exactness::expect_frame(const FrameProof& proof, const Seen& seen, FrameTruth& truth) {
+  EXPECT_EQ(proof.counters.lost, 0u);
+  EXPECT_EQ(proof.counters.mismatched_pixels, 0u);
+  EXPECT_EQ(proof.counters.prepare.overflow_tiles, 0u);
+  EXPECT_EQ(proof.counters.prepare.overflow_lights, 0u);
+  EXPECT_LE(proof.counters.prepare.in_frustum, input_.lights.count());
+  EXPECT_EQ(proof.miscounted, "");
+  EXPECT_EQ(proof.unlike, "") << "the same inputs gave other bits";
+  // The image of brute force within what rounding makes at each pixel.
+  const ImageDifference difference = compare_images(proof.picture, seen.image, 1e-30);
   EXPECT_EQ(difference.not_finite, 0u);
   if (difference.max_relative <= plain_rounding) return;
-  const OracleFrame oracle(frame_, input_);
-  PictureJudge judge(oracle, frame_.options().effects.specular, seen.truth.count);
-  PictureProof proof;
+  PictureProof same;
   for (size_t pixel = 0; pixel < seen.lit.size(); ++pixel)
-    judge.against_each_other(image, seen.image, pixel, seen.lit[pixel] != 0, proof);
-  EXPECT_EQ(proof.wrong, 0u) << proof.evidence("pixels");
+    truth.judge().against_each_other(proof.picture, seen.image, pixel, seen.lit[pixel] != 0, same);
+  EXPECT_EQ(same.wrong, 0u) << same.evidence("pixels");
 }
 
-void Exactness::expect_trial(const Trial& trial, Seen& seen) {
-  Slot& slot = slot_of(trial);
-  ShadedAlgorithm& algorithm = *slot.shaded;
-  Spans spans;
-  algorithm.prepare(input_, spans, frame_.occupied_blocks().places());
-  const uint64_t digest = algorithm.upload_digest();
-  algorithm.count(frame_, input_);
-  PixelCounts counts = read_counts(frame_);
-  Picture image = result_picture(frame_);
-  FrameCounters frame = summarize(counts, seen.truth, seen.lit, algorithm.counters());
-  EXPECT_EQ(frame.lost, 0u);
-  EXPECT_EQ(frame.mismatched_pixels, 0u);
-  EXPECT_EQ(frame.prepare.overflow_tiles, 0u);
-  EXPECT_EQ(frame.prepare.overflow_lights, 0u);
-  EXPECT_LE(frame.prepare.in_frustum, input_.lights.count());
-  EXPECT_EQ(miscounted(algorithm.info(), counts, seen.truth, seen.lit, input_.lights.count(),
-                       algorithm.wanted_lists()),
-            "");
-  EXPECT_EQ(mislisted(counts, view_depths(frame_, input_.view),
-                      [&](glm::uvec2 pixel, float depth) { return algorithm.lights_listed(pixel, depth); }),
-            "");
-  expect_same_image(image, seen);
-
-  // Again, with the timed program, and prepared anew by other numbers of threads.
-  algorithm.shade(frame_, input_, gpu::Timing::none);
-  EXPECT_EQ(compare_images(result_picture(frame_), image).differing_bits, 0u)
-      << "timed and counting program differ";
-  for (unsigned count : {1u, 2u, 7u}) {
-    Threads threads(count);
-    FrameInput again = input_;
-    again.threads = &threads;
-    algorithm.prepare(again, spans, frame_.occupied_blocks().places());
-    EXPECT_EQ(algorithm.upload_digest(), digest) << count << " threads";
-  }
-  algorithm.count(frame_, input_);
-  PixelCounts second = read_counts(frame_);
-  EXPECT_TRUE(counts.listed == second.listed && counts.tested == second.tested && counts.hash == second.hash)
-      << "counters differ the second time";
-  EXPECT_EQ(compare_images(result_picture(frame_), image).differing_bits, 0u) << "the second time";
-  seen.pictures.push_back(std::move(image));
-  seen.counts.push_back(std::move(counts));
-  seen.prepared.push_back(frame.prepare);
-}
-
-void Exactness::expect_oracle(const Seen& seen, uint32_t points) {
+void Exactness::expect_oracle(const Seen& seen, FrameTruth& truth, uint32_t points) {
   std::vector<size_t> lit;
   for (size_t i = 0; i < seen.lit.size(); ++i)
     if (seen.lit[i]) lit.push_back(i);
   ASSERT_FALSE(lit.empty()) << "the camera sees no surface";
-  const OracleFrame oracle(frame_, input_);
-  PictureJudge judge(oracle, frame_.options().effects.specular, seen.truth.count);
-  PictureProof proof;
-  for (uint32_t n = 0; n < std::min<size_t>(points, lit.size()); ++n) {
-    const size_t pixel = lit[(2 * size_t{n} + 1) * lit.size() / (2 * std::min<size_t>(points, lit.size()))];
-    const OracleAnswer& answer = judge.answer(pixel);
-    const uint32_t count = seen.truth.count[pixel];
-    EXPECT_LE(std::max(count, answer.contributing) - std::min(count, answer.contributing), answer.marginal)
-        << "pixel " << pixel;
-    judge.against_truth(seen.image, pixel, proof);
-  }
-  EXPECT_EQ(proof.wrong, 0u) << proof.evidence("points");
+  const size_t count = std::min<size_t>(points, lit.size());
+  PointProof proof;
+  for (size_t n = 0; n < count; ++n)
+    prove_point(truth, seen.image, lit[(2 * n + 1) * lit.size() / (2 * count)], proof);
+  EXPECT_EQ(proof.wrong, 0u) << "points at which other lights contribute than the oracle has";
+  EXPECT_EQ(proof.radiance.wrong, 0u) << proof.radiance.evidence("points");
 }
 
 std::vector<Trial> every_algorithm() {

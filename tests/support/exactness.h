@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "harness/base/random.h"
-#include "harness/bench/counting.h"
-#include "harness/bench/oracle_input.h"
+#include "harness/bench/frame_proof.h"
 #include "harness/frame/frame_input.h"
 #include "harness/frame/shaded_algorithm.h"
 #include "harness/output/picture.h"
@@ -94,10 +93,8 @@ class Exactness {
     std::unique_ptr<ShadedAlgorithm> shaded;
   };
   Slot& slot_of(const Trial& trial);
-  // Of the frame at hand: equal to brute force's within what rounding makes at each pixel.
-  void expect_same_image(const Picture& image, const Seen& seen);
-  void expect_trial(const Trial& trial, Seen& seen);
-  void expect_oracle(const Seen& seen, uint32_t points);
+  void expect_frame(const FrameProof& proof, const Seen& seen, FrameTruth& truth);
+  void expect_oracle(const Seen& seen, FrameTruth& truth, uint32_t points);
 
   DeviceFrame frame_;
   ShadedAlgorithm brute_;
