@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "harness/bench/calibration.h"
 #include "tests/support/test_device.h"
 
 namespace ml::test {
@@ -41,16 +40,18 @@ TEST_F(NestedSpans, AreAPartOfTheSpansAroundThem) {
   EXPECT_EQ(names,
             (std::vector<std::string>{"shade", "shade/trace", "shade/reuse", "shade/reuse/trace", "trace"}));
   ASSERT_EQ(times.intervals.size(), 9u);
+  // In the order in which they began. A clock may be too coarse to tell two stamps apart.
   for (size_t i = 0; i < times.intervals.size(); ++i) {
     const auto& outer = times.intervals[i];
     EXPECT_GE(outer.end, outer.begin);
     for (size_t j = i + 1; j < times.intervals.size(); ++j) {
       const auto& other = times.intervals[j];
-      const bool inside = other.begin < outer.end;
-      EXPECT_EQ(inside, other.name.starts_with(outer.name + "/") && (i < 4) == (j < 4))
-          << other.name << " and " << outer.name;
-      if (inside) {
+      SCOPED_TRACE(other.name + " and " + outer.name);
+      if (other.name.starts_with(outer.name + "/") && (i < 4) == (j < 4)) {
+        EXPECT_GE(other.begin, outer.begin);
         EXPECT_LE(other.end, outer.end);
+      } else {
+        EXPECT_GE(other.begin, outer.end);
       }
     }
   }
@@ -59,16 +60,6 @@ TEST_F(NestedSpans, AreAPartOfTheSpansAroundThem) {
   EXPECT_GE(times.spans[2].second, times.spans[3].second);
   EXPECT_LE(times.sum_of_spans(), times.whole * (1 + 1e-9));
   EXPECT_TRUE(record(gpu::Timing::whole).spans.empty());
-}
-
-TEST_F(NestedSpans, CountOnceInTheSumThatIsChecked) {
-  if (device().limits().timestamp_valid_bits == 0) GTEST_SKIP() << "the queue has no timestamps";
-  // What a busy machine does to single submissions is no fault of the sum.
-  int agreeing = 0;
-  for (int i = 0; i < 10; ++i)
-    agreeing += timing_contradiction(record(gpu::Timing::stages), gpu::Timing::stages).find("sum") ==
-                std::string::npos;
-  EXPECT_GE(agreeing, 6);
 }
 
 TEST_F(NestedSpans, WhatMayNotBeIsSaid) {
