@@ -25,12 +25,16 @@ class Lacking : public testing::TestWithParam<const char*> {
  protected:
   ProcessOptions options() const {
     ProcessOptions options;
+    options.folder = folder_.path();  // `run` writes into the folder it stands in, one at a time
     options.environment = {{"VK_ADD_LAYER_PATH", ML_LAYER_FOLDER},
                            {"VK_INSTANCE_LAYERS", "VK_LAYER_ML_lacking"},
                            {"ML_LACKS", GetParam()}};
     return options;
   }
   std::string said() const { return "lacks " + lacks.at(GetParam()); }
+
+ private:
+  Folder folder_;
 };
 
 TEST_P(Lacking, IsSaidOfTheDevice) {
