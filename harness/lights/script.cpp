@@ -38,7 +38,7 @@ bool spawn(const LightNumbers& number, double seconds, Light& light) {
   if (age >= kLitShare) return false;
   double fade = std::min({age * (1 / kFadeShare), (kLitShare - age) * (1 / kFadeShare), 1.0});
   scale_size(light, fade);
-  // Intensity goes with the square of the radius, as in the radius law.
+  // Intensity goes with the square of the radius, as where radii are chosen.
   light.intensity *= static_cast<float>(fade * fade);
   const glm::vec3& half = light.half_extents;
   const float thinnest = light.shape == LightShape::box ? std::min({half.x, half.y, half.z}) : light.radius;

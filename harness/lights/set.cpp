@@ -9,11 +9,11 @@
 #include "harness/base/error.h"
 #include "harness/base/random.h"
 #include "harness/lights/clumps.h"
-#include "harness/lights/law.h"
 #include "harness/lights/placement.h"
 #include "harness/lights/places.h"
+#include "harness/lights/radius_distribution.h"
 #include "harness/lights/script.h"
-#include "harness/lights/shape_law.h"
+#include "harness/lights/shape_distribution.h"
 #include "harness/lights/stage.h"
 
 namespace ml {
@@ -22,7 +22,7 @@ namespace {
 constexpr uint32_t kMaxLights = 1048576;
 constexpr float kRoomRadius = 8;  // m, of placement `room`
 
-// Placements that bring their own law of radii.
+// Placements that bring their own distribution of radii.
 bool has_own_radii(std::optional<Placement> placement) {
   return placement == Placement::clumps || placement == Placement::stage || placement == Placement::room;
 }
@@ -71,7 +71,7 @@ void check_stage(const LightSpec& spec) {
       "wedge_fraction or box_fraction");
 }
 
-// m, the s of the run's law of radii.
+// m, the s of the run's distribution of radii.
 double smallest_radius(const LightSpec& spec, const Scene& scene) {
   if (spec.radius > 0) return spec.radius;
   const Placement placement = *spec.placement;

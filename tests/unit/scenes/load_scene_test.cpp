@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "harness/base/error.h"
-#include "harness/lights/law.h"
+#include "harness/lights/radius_distribution.h"
 #include "level_checks.h"
 #include "scenes/scene_registry.h"
 
