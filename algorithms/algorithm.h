@@ -74,7 +74,7 @@ struct AlgorithmInfo {
 
 // The lights of one frame, camera-relative (world axes), rounded to float once and the same for CPU and GPU.
 // Structure of arrays, so that bounds can be computed many at a time; all spans have the same length and 64
-// readable bytes of padding behind their last element.
+// readable bytes of padding after their last element.
 struct FrameLights {
   std::span<const float> x, y, z;  // m
   // m, > 0: of the ball around (x, y, z) that holds the light's whole volume, so that an algorithm that knows

@@ -1,4 +1,4 @@
-// The lists of the pixel's tile: of direct lights, then of probe lights. Without limits they stand one behind the other
+// The lists of the pixel's tile: of direct lights, then of probe lights. Without limits they stand one after the other
 // and are walked as one.
 #include "pruned_lists.h"
 

@@ -25,7 +25,7 @@ ML_NAMESPACE_BEGIN
 // In front of the visible lights' indices, which are sorted: direct lights before probe lights, and each by
 // type: balls (omni, capsule), cones (spot, wedge), boxes. A light's place in that order is its visible
 // index. Tiles' lists keep the order, so a list's direct lights and its probe lights are two lists, one
-// behind the other.
+// after the other.
 struct VisibleHeader {
   uint count;
   uint first_cone,

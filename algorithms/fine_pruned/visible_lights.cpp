@@ -65,7 +65,7 @@ uint64_t VisibleLightList::max_entries_of_tiles(const FrameInput& frame) {
 }
 
 uint32_t VisibleLightList::most_in_a_tile() {
-  // A box adds one from its first column and row on and takes it away behind its last; sums over columns and
+  // A box adds one from its first column and row on and takes it away past its last; sums over columns and
   // rows are the numbers of boxes.
   const size_t stride = columns_ + size_t{1};
   changes_.assign(stride * (rows_ + size_t{1}), 0);

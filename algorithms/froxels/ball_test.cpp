@@ -92,7 +92,7 @@ BallInFroxel ball_in_froxel(const BallTest& t, bool orthographic, float x, float
   const float half_slope = ahead + across.edge * across.away + up.edge * up.away;
   const float step = clamped(0 - half_slope, near - depth, far - depth);
   const bool reached = !(distance2 + step * (half_slope + half_slope + step) > radius * radius);
-  // Where distance2 + 2 half_slope s + s^2 is radius^2, s metres behind `depth`.
+  // Where distance2 + 2 half_slope s + s^2 is radius^2, s metres beyond `depth`.
   const float squares = half_slope * half_slope + radius * radius;
   const float half = std::sqrt(std::max(squares - distance2 + squares * chord_slack, 0.0f));
   const float middle = depth - half_slope;

@@ -58,7 +58,7 @@ void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint
 
 namespace simd {
 // Writes the pairs of those froxels that the balls reach. The boxes and their lights are those at
-// places[0..count), with padding behind them, or without places at [first, first + count). With `reaches`,
+// places[0..count), with padding after them, or without places at [first, first + count). With `reaches`,
 // the depths of whole lights by index, each pair gets those at which the ball is met in its tile and the
 // light is within them.
 void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,

@@ -15,14 +15,14 @@ namespace ml {
 // Lights in front of the camera and not outside a side plane of the view, in view space, in ascending order
 // of index.
 struct VisibleLights {
-  // View-space centre (m), widened radius (m), light index; vector padding behind the last element.
+  // View-space centre (m), widened radius (m), light index; vector padding after the last element.
   std::vector<float> x, y, z, radius;
   std::vector<uint32_t> index;
   size_t count = 0;  // elements in use, where they are one run from the first on
   void reserve(size_t lights);
 };
 
-// A run of visible lights. Vector code reads up to 64 elements behind the last one.
+// A run of visible lights. Vector code reads up to 64 elements past the last one.
 struct VisibleRun {
   const float *x, *y, *z, *radius;
   const uint32_t* index;
@@ -56,7 +56,7 @@ struct DepthReach {
   float minus_low, high;
 };
 
-// Elements behind the last one that vector code may touch, and the multiple at which runs begin that are
+// Elements past the last one that vector code may touch, and the multiple at which runs begin that are
 // written side by side.
 inline constexpr size_t vector_padding = 64;
 

@@ -6,7 +6,7 @@
 
 namespace ml::simd {
 
-// [mask of 8 bits][lane]: the lane that moves there, of eight; behind the kept ones lane 0.
+// [mask of 8 bits][lane]: the lane that moves there, of eight; after the kept ones lane 0.
 inline constexpr auto kept_of_eight = [] {
   std::array<std::array<uint8_t, 8>, 256> table{};
   for (uint32_t mask = 0; mask < table.size(); ++mask)
@@ -15,7 +15,7 @@ inline constexpr auto kept_of_eight = [] {
   return table;
 }();
 
-// [mask of 4 bits][byte]: the byte that moves there, of sixteen; behind the kept lanes those of lane 0.
+// [mask of 4 bits][byte]: the byte that moves there, of sixteen; after the kept lanes those of lane 0.
 alignas(16) inline constexpr auto kept_bytes_of_four = [] {
   std::array<std::array<uint8_t, 16>, 16> table{};
   for (uint32_t mask = 0; mask < table.size(); ++mask)

@@ -14,9 +14,9 @@ namespace ml {
 
 // Depth as a number of 16 bits to sort by: steps of 1/2048 of the depth or finer while near and far are not
 // more than 29 octaves apart. Centres before the near plane are 0. Those beyond the far depth are sorted by
-// the same steps for an octave or more, as far as the numbers reach, and only what lies behind is 65535: a
-// tree over lights of one key would be no better than a list. Trees stay right for any order of their lights,
-// only their bounds grow; steps this fine change none noticeably.
+// the same steps for an octave or more, as far as the numbers reach, and only what lies farther away is
+// 65535: a tree over lights of one key would be no better than a list. Trees stay right for any order of
+// their lights, only their bounds grow; steps this fine change none noticeably.
 class DepthKey {
  public:
   static constexpr uint32_t bits = 16, most = (1u << bits) - 1;
@@ -39,7 +39,7 @@ class DepthOrder {
   // of runs.
   void sort(const float* z, std::span<const PlaceRun> runs, const DepthKey& key, Threads& threads);
 
-  // The place of each rank; vector padding behind them.
+  // The place of each rank; vector padding after them.
   std::span<const uint32_t> places() const { return std::span(places_).first(count_); }
 
  private:

@@ -70,7 +70,7 @@ class RowSift {
     end(all.slices, taken_);
   }
 
-  // Behind the last light stand lanes that hold nothing.
+  // Lanes that hold nothing, after the last light.
   void end(std::vector<Lane>& extent, size_t count) { hn::StoreU(hn::Zero(d_), d_, &extent[count]); }
 
   // Copies some lanes of the first `in` boxes, of those that hold a place along the axis whose first place

@@ -52,7 +52,7 @@ VolumeBox SpherePacking::pack(const SphereTree& tree, uint32_t node) {
     box = first ? child : around(box, child);
     first = false;
   }
-  // The children stand behind this node, each where the last one's miss leads.
+  // The children stand after this node, each where the last one's miss leads.
   const std::span<const PackedNode> below = std::span(nodes_).subspan(place + 1);
   PackedNode packed = around_balls(below, static_cast<uint32_t>(place) + 1);
   if (const PackedNode ball = around_box(box); ball.radius < packed.radius) packed = ball;

@@ -73,7 +73,7 @@ uvec2 merged_leaves(LightCursor cursor, uint height, bool here) {
   return uvec2(subgroup_or(mask.x), subgroup_or(mask.y));
 }
 
-// Goes on to the next leaves that pixels of the subgroup hit, or behind the tree. A tree of more leaves is one subtree
+// Goes on to the next leaves that pixels of the subgroup hit, or past the tree. A tree of more leaves is one subtree
 // of 64 after another; of these, and of the nodes above them, those that no pixel hits are left out with all that is
 // below.
 uint masked_runs(inout LightCursor cursor, bool here) {

@@ -86,7 +86,7 @@ struct StepSum {
     lanes = hn::Zero(ds);
     added = 0;
   }
-  // Rounded by an addition that leaves no bits behind the point: in [0, 2^22), to the nearest, ties to even.
+  // Rounded by an addition that leaves no bits after the point: in [0, 2^22), to the nearest, ties to even.
   HWY_INLINE void add(VF steps) {
     const float point = 12582912.0f;
     const VI rounded = hn::BitCast(ds, hn::Add(steps, hn::Set(df, point)));
@@ -111,7 +111,7 @@ HWY_INLINE DepthReach largest(D d, hn::Vec<D> pairs) {
 }
 
 // The same, pairs side by side in the lanes: with the low end negated both ends are treated alike. Whole
-// vectors are read, what is behind the last light in vain.
+// vectors are read, what is past the last light in vain.
 template <bool summed>
 HWY_INLINE DepthReach leaf_reach(const DepthReach* reaches, uint32_t count, DepthReach clip, float steps,
                                  StepSum& sum) {

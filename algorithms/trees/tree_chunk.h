@@ -23,7 +23,7 @@ struct TreeSettings {
   // The mean is of extents clipped to the cell, as in listing 2; false: of whole ones, as in the authors'
   // code, each counted as at most max_extents of the cell's.
   bool clipped = true;
-  // Leave out the nodes behind the last leaf that has lights: only padding.
+  // Leave out the nodes after the last leaf that has lights: only padding.
   bool trim_padding = true;
   // Lists are trees of one node, as in the paper (section 3.4), or several one after the other where a leaf
   // cannot count them; else a list's place stands in its cell.

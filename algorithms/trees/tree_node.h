@@ -19,7 +19,7 @@ ML_SIZE(TreeNode, 16);
 // What a cell holds: nothing (0, 0), a tree, or a list that needs no node.
 struct TreeCell {
   uint first;  // tree: its first node; list: place of its first light in the list of lights
-  uint end;    // tree: the first node behind it; list: ML_TREE_CELL_LIST | how many lights
+  uint end;    // tree: the first node past it; list: ML_TREE_CELL_LIST | how many lights
 };
 ML_SIZE(TreeCell, 8);
 #define ML_TREE_CELL_LIST 0x80000000u

@@ -32,8 +32,8 @@ TreeNode tree_node(uint place) {
 const float any_depth = 3.4e38;  // m, more than any
 
 struct LightCursor {
-  uint node, end;   // the next node, and the first behind the tree
-  uint next, last;  // lights of the leaf that is walked: the next, and the first behind
+  uint node, end;   // the next node, and the first past the tree
+  uint next, last;  // lights of the leaf that is walked: the next, and the first past it
   float depth;      // m, of the pixel
   // A subgroup that walks together: the run of lights that this lane found, and the depths at which it shines.
   uint run_first, run_count;
@@ -130,11 +130,11 @@ bool some_depth_in(float low, float high, float depth, bool here) {
 // A subgroup that walks together takes as many nodes at once as it has lanes, one each, and with them every leaf that
 // holds a pixel's depth. All nodes above such a leaf hold it too, so leaves tell alone; of the others those that are
 // missed tell how far the next nodes can be left out. Adds what it finds to `runs`; ends with the first that are there,
-// or behind the tree.
+// or past the tree.
 void tree_runs(inout LightCursor cursor, bool here, inout uint runs) {
   const uint lanes = min(subgroup_lanes(), 32u), lane = gl_SubgroupInvocationID;
   do {
-    const uint own = cursor.node + lane, behind = cursor.node + lanes;
+    const uint own = cursor.node + lane, after = cursor.node + lanes;
     const bool exists = lane < lanes && own < cursor.end;
     if (here) COUNT_NODES(min(max(cursor.end, cursor.node) - cursor.node, lanes));
     TreeNode node = TreeNode(any_depth, -any_depth, 0u, 0u);
@@ -148,10 +148,10 @@ void tree_runs(inout LightCursor cursor, bool here, inout uint runs) {
       cursor.run_high = node.high;
     }
     runs |= subgroup_ballot(hit && leaf);
-    // The first missed node whose nodes go on behind these is above all others of the kind.
+    // The first missed node whose nodes go on past these is above all others of the kind.
     const uint next = own + tree_skip(node);
-    const uint jumps = subgroup_ballot(exists && !hit && next > behind);
-    cursor.node = jumps != 0u ? subgroupShuffle(next, uint(findLSB(jumps))) : behind;
+    const uint jumps = subgroup_ballot(exists && !hit && next > after);
+    cursor.node = jumps != 0u ? subgroupShuffle(next, uint(findLSB(jumps))) : after;
   } while (runs == 0u && cursor.node < cursor.end);
 }
 

@@ -17,7 +17,7 @@ class OccupiedBlocks {
  public:
   OccupiedBlocks(gpu::Device& device, uint32_t width, uint32_t height);
 
-  // Records the search behind the g-buffer; `bindings` has its pictures.
+  // Records the search after the g-buffer pass; `bindings` has its pictures.
   void record(gpu::Commands& commands, const gpu::Bindings& bindings);
   // When that has been done: takes what was found.
   void read();

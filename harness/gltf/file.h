@@ -81,7 +81,7 @@ void note_what_is_ignored(File& file, const Json& raw);
 void load_buffers(File& file, std::optional<Bytes> binary);
 // The bytes of a buffer view.
 Bytes view_bytes(const File& file, size_t view);
-// The bytes behind a URI: a data URI is decoded, anything else is a file below file.root.
+// The bytes that a URI names: a data URI is decoded, anything else is a file below file.root.
 std::vector<std::byte> load_uri(const File& file, const std::string& place, const std::string& uri);
 // The path of a file that lies in or below file.root, seen from file.folder. Throws UsageError for absolute
 // paths, schemes, paths that lead out of the root, and where external files are refused.

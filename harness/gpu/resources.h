@@ -150,7 +150,7 @@ class Image {
   uint32_t levels() const { return desc_.levels; }
   uint32_t width(uint32_t level) const { return std::max(desc_.width >> level, 1u); }
   uint32_t height(uint32_t level) const { return std::max(desc_.height >> level, 1u); }
-  // Of all levels, one behind the other; of one.
+  // Of all levels, one after the other; of one.
   size_t bytes() const;
   size_t bytes(uint32_t level) const;
 

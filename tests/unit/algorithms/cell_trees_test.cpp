@@ -114,7 +114,7 @@ TEST(CellTrees, FastPathGivesTheReferencesBits) {
   }
 }
 
-// Builds once more, in place, and expects the same nodes and nothing behind the room for them.
+// Builds once more, in place, and expects the same nodes and nothing written past their capacity.
 void expect_same_in_place(const Trees& trees, const TreeSettings& settings, Threads& threads) {
   const TreeNode untouched{1, 2, 3, 4};
   const size_t room = CellTrees::capacity(trees.lists, settings);

@@ -166,7 +166,7 @@ TEST(GltfMaterial, BrokenJpegsAreWhite) {
   EXPECT_NE(trouble_with(bad), "");
 }
 
-// The header of a PNG of that size, and nothing behind it.
+// The header of a PNG of that size, and nothing after it.
 std::vector<uint8_t> png_header(uint32_t width, uint32_t height) {
   std::vector<uint8_t> png = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
   for (uint32_t side : {width, height})
