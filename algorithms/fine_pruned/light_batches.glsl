@@ -25,7 +25,7 @@ ScreenBounds bounds_of(uint light) {
 const uint max_rounds = 8u;  // lights that a thread tests in one batch
 const uint batch = max_rounds * ML_PRUNED_GROUP, batch_words = batch / 32u;
 
-// Which lights of a batch passed; three take turns, so that a barrier a batch is enough.
+// Which lights of a batch passed. There are three slots, used one after the other, so that a barrier a batch is enough.
 shared uint passed[3u * batch_words];
 
 // Before anything that is shared is written; the pass then does the same with what it shares itself, and a barrier
@@ -39,15 +39,15 @@ void poison_batches() {
 void clear_batches() {
   const uint thread = gl_LocalInvocationIndex;
   if (thread < batch_words)
-    for (uint turn = 0u; turn < 3u; ++turn) passed[turn * batch_words + thread] = 0u;
+    for (uint slot = 0u; slot < 3u; ++slot) passed[slot * batch_words + thread] = 0u;
 }
 
-// After a batch's barrier: clears the field that was last read before it and is next written after the next one's.
-// Returns the next turn.
-uint next_turn(uint turn) {
-  const uint cleared = turn == 0u ? 2u : turn - 1u;
+// After a batch's barrier: clears the slot that was last read before it, and is next written after the barrier of the
+// next batch. Returns the next batch's slot.
+uint next_slot(uint slot) {
+  const uint cleared = slot == 0u ? 2u : slot - 1u;
   if (gl_LocalInvocationIndex < batch_words) passed[cleared * batch_words + gl_LocalInvocationIndex] = 0u;
-  return turn == 2u ? 0u : turn + 1u;
+  return slot == 2u ? 0u : slot + 1u;
 }
 
 // Closed ranges, as first | last << 16.

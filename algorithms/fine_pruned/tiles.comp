@@ -105,13 +105,13 @@ void main() {
                                        (gl_WorkGroupID.x >> push.region_shift));
   const uint candidates = REGIONS ? region_lists[region_list] : visible.count;
   const uint count = no_room || !(tile_bounds.near <= tile_bounds.far) ? 0u : candidates;
-  uint demand = 0u, held = 0u, listed = 0u, turn = 0u;
+  uint demand = 0u, held = 0u, listed = 0u, slot = 0u;
   for (uint begin = 0u; begin < count; begin += batch) {
-    const uint field = turn * batch_words;
+    const uint field = slot * batch_words;
     test_batch(begin, count, field, tile_bounds);
     barrier();
     const uint more = keep_batch(begin, count, field, held);
-    turn = next_turn(turn);
+    slot = next_slot(slot);
     demand += more;
     held += more;
     if (MODE == mode_lists && held >= ML_PRUNED_CHUNK) {

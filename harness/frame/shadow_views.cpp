@@ -58,8 +58,8 @@ std::vector<gpu_data::ViewData> shadow_views(const FrameInput& frame, uint32_t c
   std::vector<gpu_data::ViewData> views;
   for (uint32_t i = 0; i < count; ++i) {
     Caster caster = casters[i % casters.size()];
-    if (const size_t turn = i / casters.size(); turn > 0) {
-      caster.direction = axes[(turn - 1) % axes.size()];
+    if (const size_t round = i / casters.size(); round > 0) {
+      caster.direction = axes[(round - 1) % axes.size()];
       caster.angle = 90 * degrees;
     }
     const glm::dvec3 at = glm::dvec3(frame.view.camera) + glm::dvec3(caster.position);

@@ -200,7 +200,7 @@ TEST(ShadowViews, TakeTheLargestLightsThatCastShadows) {
   EXPECT_NEAR(views[0].right_edge, std::tan(20 * degrees), 1e-5f);
   EXPECT_LT(glm::distance(views[1].forward, glm::vec3(0, -1, 0)), 1e-6f);
   EXPECT_NEAR(views[1].right_edge, 1, 1e-6f);
-  EXPECT_GT(glm::distance(views[4].forward, views[1].forward), 0.5f) << "another turn, another axis";
+  EXPECT_GT(glm::distance(views[4].forward, views[1].forward), 0.5f) << "another round, another axis";
 
   storage.fill({}, camera.position);
   input.lights = storage.lights();
