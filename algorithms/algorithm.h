@@ -148,10 +148,10 @@ struct ShadeShaders {
   Spirv forward, forward_counting;
 };
 
-// A class for each tile of a picture: `of_tile`[row * columns + column], at most `most`. No tiles: all are of
-// class `most`.
+// A class for each tile of a picture: `of_tile`[row * columns + column], at most `max`. No tiles: all are of
+// class `max`.
 struct TileClasses {
-  uint32_t most = 0;
+  uint32_t max = 0;
   uint32_t tile = 0, columns = 0;  // px, tiles
   std::span<const uint8_t> of_tile;
 };
@@ -192,7 +192,7 @@ class Algorithm {
   // time also where it is not needed.
   virtual TileClasses tile_classes() const { return {}; }
   // Further constants of a class's program. A higher class can do what a lower one can; the highest is
-  // `TileClasses::most`.
+  // `TileClasses::max`.
   virtual gpu::Constants class_constants(uint32_t /*tile_class*/) const { return {}; }
 
   // The pixels of a subgroup walk their cells' lights together, where the device can (shade.comp:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kFarthest = 1e6;   // m, any coordinate or length
 constexpr double kLongest = 86400;  // s
-constexpr size_t kMostPaths = 100, kMostKeys = 10000;
+constexpr size_t kMaxPaths = 100, kMaxKeys = 10000;
 
 std::string file_of(const std::string& scene) {
   return "scenes/" + scene + "/scene.json";
@@ -64,7 +64,7 @@ PathDescription read_path(const Node& node) {
   PathDescription path;
   path.name = members.get("name").text(1, 100);
   const Node keys = members.get("keys");
-  const size_t count = keys.list(1, kMostKeys);
+  const size_t count = keys.list(1, kMaxKeys);
   for (size_t i = 0; i < count; ++i) {
     const Node item = keys.item(i);
     Members key(item);
@@ -81,7 +81,7 @@ PathDescription read_path(const Node& node) {
 
 std::vector<PathDescription> read_paths(const Node& node) {
   std::vector<PathDescription> paths;
-  const size_t count = node.list(1, kMostPaths);
+  const size_t count = node.list(1, kMaxPaths);
   for (size_t i = 0; i < count; ++i) {
     PathDescription path = read_path(node.item(i));
     const Node name = node.item(i).member("name");

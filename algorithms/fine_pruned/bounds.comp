@@ -18,7 +18,7 @@ layout(scalar, binding = 17) writeonly buffer Bounds { ScreenBounds bounds[]; };
 const float none = 3e38;
 const bool any_hulls = EFFECT_SPOTS || EFFECT_CAPSULES || EFFECT_WEDGES || EFFECT_BOXES;
 const float widen_pixels = 1.0 / 256.0;  // as the froxel bounds
-const uint max_corners = 16u;  // of a clipped face: 4 and one for each plane, and room for what rounding bends
+const uint max_corners = 16u;  // of a clipped face: 4 and one for each plane, and some for what rounding bends
 
 // Window coordinates (slopes or metres) and depths.
 struct WindowBounds {

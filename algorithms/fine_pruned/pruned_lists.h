@@ -48,12 +48,12 @@ struct PrunedPush {
   uint tiles;     // all of them
   uint capacity;  // lights that the list buffer holds
   // Regions of 2^region_shift tiles squared: how many stand side by side, and words from one's list to the
-  // next: the number of its lights, and room for all.
+  // next: the number of its lights, and space for all.
   uint region_shift, region_columns, region_words;
 };
 ML_SIZE(PrunedPush, 24);
 
-// First light of a list that stands in the visible lights themselves: the list buffer had no room for the
+// First light of a list that stands in the visible lights themselves: the list buffer had no space for the
 // tile, which then walks all of them.
 #define ML_PRUNED_ALL 0x80000000u
 

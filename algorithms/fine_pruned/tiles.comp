@@ -98,13 +98,13 @@ void main() {
   load_points();
 
   const uint first = MODE == mode_lists ? tile_lists[tile].x : 0u;
-  const bool no_room = MODE == mode_lists && first == ML_PRUNED_ALL;
+  const bool no_space = MODE == mode_lists && first == ML_PRUNED_ALL;
   // A tile of sky has an empty list.
   if (REGIONS)
     region_list = push.region_words * ((gl_WorkGroupID.y >> push.region_shift) * push.region_columns +
                                        (gl_WorkGroupID.x >> push.region_shift));
   const uint candidates = REGIONS ? region_lists[region_list] : visible.count;
-  const uint count = no_room || !(tile_bounds.near <= tile_bounds.far) ? 0u : candidates;
+  const uint count = no_space || !(tile_bounds.near <= tile_bounds.far) ? 0u : candidates;
   uint demand = 0u, held = 0u, listed = 0u, slot = 0u;
   for (uint begin = 0u; begin < count; begin += batch) {
     const uint field = slot * batch_words;
@@ -132,7 +132,7 @@ void main() {
   barrier();
   held = min(held, ML_PRUNED_CHUNK);
   if (held != 0u) append_chunk(0u, held, first, listed);
-  if (MODE == mode_lists && no_room) listed = visible.count;
+  if (MODE == mode_lists && no_space) listed = visible.count;
   if (thread == 0u) {
     if (MODE == mode_packed) tile_counts[tile].x = demand;  // else counted before
     tile_counts[tile].y = listed;

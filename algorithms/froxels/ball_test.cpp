@@ -53,11 +53,11 @@ void BallTest::build(const BoundsConstants& c) {
     slice_high[slice] = std::max(depth_ranges[slice].high, slice_low[slice]);
   }
   if (!places.empty()) return;
-  constexpr uint32_t most = BoxOffsets::max_extent;
-  places.assign(size_t{most} * most * most * BoxOffsets::stride, 0);
-  for (uint32_t columns = 1; columns <= most; ++columns)
-    for (uint32_t rows = 1; rows <= most; ++rows)
-      for (uint32_t depth = 1; depth <= most; ++depth) {
+  constexpr uint32_t max_extent = BoxOffsets::max_extent;
+  places.assign(size_t{max_extent} * max_extent * max_extent * BoxOffsets::stride, 0);
+  for (uint32_t columns = 1; columns <= max_extent; ++columns)
+    for (uint32_t rows = 1; rows <= max_extent; ++rows)
+      for (uint32_t depth = 1; depth <= max_extent; ++depth) {
         auto* next = const_cast<uint32_t*>(box_places(columns, rows, depth));
         for (uint32_t slice = 0; slice < depth; ++slice)
           for (uint32_t row = 0; row < rows; ++row)

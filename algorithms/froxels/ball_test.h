@@ -31,8 +31,8 @@ struct BallTest {
   // Place of a froxel in its box: column + (row << 8) + (slice << 16), ordered as BoxOffsets is.
   std::vector<uint32_t> places;
   const uint32_t* box_places(uint32_t columns, uint32_t rows, uint32_t slices) const {
-    constexpr uint32_t most = BoxOffsets::max_extent;
-    return &places[(((columns - 1) * most + rows - 1) * most + slices - 1) * BoxOffsets::stride];
+    constexpr uint32_t max_extent = BoxOffsets::max_extent;
+    return &places[(((columns - 1) * max_extent + rows - 1) * max_extent + slices - 1) * BoxOffsets::stride];
   }
   void build(const BoundsConstants& constants);
 };

@@ -209,7 +209,7 @@ void emit_all(const VisibleLights& visible, const LightBox* boxes, const uint32_
               const DepthReach* reaches, FroxelPairs& pairs) {
   // Places jump about in more memory than the nearest caches hold, and are known long before.
   constexpr size_t ahead = 24;
-  constexpr uint32_t most = BoxOffsets::max_extent;
+  constexpr uint32_t max_extent = BoxOffsets::max_extent;
   Emitter<orthographic, with_depths> emitter(test, offsets, grid, reaches, pairs);
   for (size_t k = 0; k < count; ++k) {
     if (places) {
@@ -230,7 +230,7 @@ void emit_all(const VisibleLights& visible, const LightBox* boxes, const uint32_
     const VF radius = hn::Set(df, visible.radius[i]);
     const Ball ball{hn::Set(df, visible.x[i]), hn::Set(df, visible.y[i]), hn::Set(df, visible.z[i]),
                     hn::Mul(radius, radius)};
-    if ((box.columns <= most) & (box.rows <= most) & (box.slices <= most))
+    if ((box.columns <= max_extent) & (box.rows <= max_extent) & (box.slices <= max_extent))
       emitter.small(box, ball);
     else
       emitter.large(box, ball);

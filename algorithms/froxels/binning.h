@@ -60,7 +60,7 @@ struct DepthReach {
 // written side by side.
 inline constexpr size_t vector_padding = 64;
 
-// Room for `count` elements and the padding; grows rarely and never shrinks.
+// Makes space for `count` elements and the padding; grows rarely and never shrinks.
 template <typename Element>
 void reserve_padded(std::vector<Element>& elements, size_t count) {
   if (elements.size() < count + vector_padding) elements.resize(count + count / 4 + vector_padding);
@@ -103,7 +103,7 @@ DepthInterval depth_interval(float z, float radius);
 
 namespace simd {
 // Writes the visible ones of lights [begin, end) to `visible`, from its element `begin` on, and returns how
-// many they are. With `reaches`, reaches[i] becomes light i's depths, visible or not. Both have room for all
+// many they are. With `reaches`, reaches[i] becomes light i's depths, visible or not. Both have space for all
 // lights and the padding; whole vectors are written. Parts that begin at multiples of the padding can be
 // culled side by side.
 size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
@@ -119,7 +119,7 @@ void emit(const LightBox* boxes, const uint32_t* places, size_t count, const Fro
 // Sum of the boxes' froxels, the pairs that emit() will write; places as there. bound() returns that of a
 // whole run.
 uint64_t count_pairs(const LightBox* boxes, const uint32_t* places, size_t count);
-// Makes room for `count` pairs and the vector code's padding.
+// Makes space for `count` pairs and the vector code's padding.
 void reserve_pairs(FroxelPairs& pairs, size_t count, bool with_reaches = false);
 
 }  // namespace ml

@@ -233,8 +233,8 @@ void emit_all(const LightBox* boxes, const uint32_t* places, size_t count, const
     const uint32_t total = columns * rows * slices;
     if (total == 0) continue;
     const VE first = hn::Set(de, box.first), index = hn::Set(de, box.light);
-    constexpr uint32_t most = BoxOffsets::max_extent;
-    if ((columns <= most) & (rows <= most) & (slices <= most)) {
+    constexpr uint32_t max_extent = BoxOffsets::max_extent;
+    if ((columns <= max_extent) & (rows <= max_extent) & (slices <= max_extent)) {
       // Whole vectors are written; what is too much is overwritten by the next light.
       const uint32_t* table = offsets.get(columns, rows, slices);
       size_t k = 0;

@@ -13,8 +13,8 @@ DepthKey::DepthKey(const gpu_data::ViewData& view)
     : near_(std::bit_cast<uint32_t>(std::max(view.near, view.far * 1e-9f))), last_(0), shift_(0) {
   constexpr uint32_t octave = 1u << 23, largest = 0x7f7fffffu;  // in a float's bits; the largest finite float
   const uint32_t far = std::bit_cast<uint32_t>(std::max(view.near, view.far));
-  while ((std::min(far + octave, largest) - near_) >> shift_ > most) ++shift_;
-  last_ = static_cast<uint32_t>(std::min<uint64_t>(near_ + ((uint64_t{most} + 1) << shift_) - 1, largest));
+  while ((std::min(far + octave, largest) - near_) >> shift_ > max) ++shift_;
+  last_ = static_cast<uint32_t>(std::min<uint64_t>(near_ + ((uint64_t{max} + 1) << shift_) - 1, largest));
 }
 
 uint32_t DepthKey::operator()(float z) const {

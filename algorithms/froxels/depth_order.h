@@ -19,7 +19,7 @@ namespace ml {
 // their lights, only their bounds grow; steps this fine change none noticeably.
 class DepthKey {
  public:
-  static constexpr uint32_t bits = 16, most = (1u << bits) - 1;
+  static constexpr uint32_t bits = 16, max = (1u << bits) - 1;
   explicit DepthKey(const gpu_data::ViewData& view);
   uint32_t operator()(float z) const;
 

@@ -101,7 +101,7 @@ class FroxelLists {
   void scatter_part(size_t part);
   void build(const FrameInput& frame, const FroxelSettings& settings, uint64_t max_entries,
              UploadMemory* memory, uint32_t slot, Spans& spans);
-  // Takes room for the lists' entries.
+  // Makes space for the lists' entries.
   void begin_list(uint64_t entries, UploadMemory* memory, uint32_t slot);
   static bool narrows(const FrameInput& frame, const FroxelSettings& settings) {
     return settings.narrow && frame.lights.count() <= size_t{1} << 16;

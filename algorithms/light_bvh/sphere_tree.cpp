@@ -248,7 +248,7 @@ void SphereTree::remove(uint32_t leaf) {
   for (; dirty != none; dirty = nodes_[dirty].parent) fit(dirty);
 }
 
-// Down from the root: into the child whose surface grows least, until a sibling is cheaper. A node with room
+// Down from the root: into the child whose surface grows least, until a sibling is cheaper. A node with space
 // takes the light as a child, for the price of one more test; a full one, or a leaf, shares a new node with
 // it.
 void SphereTree::insert(uint32_t leaf) {
@@ -264,10 +264,10 @@ void SphereTree::insert(uint32_t leaf) {
       const float cost = around(child, box).area() - child.area();
       if (best == none || cost < best_cost) best = nodes_[node].child[c], best_cost = cost;
     }
-    const bool room = nodes_[node].children < branching_;
+    const bool has_space = nodes_[node].children < branching_;
     // With a leaf it would take a node around both.
     const float price = nodes_[best].light != none ? around(nodes_[best].box, box).area() : best_cost;
-    if (room && !(price < box.area())) {
+    if (has_space && !(price < box.area())) {
       nodes_[node].child[nodes_[node].children++] = leaf;
       nodes_[leaf].parent = node;
       return;

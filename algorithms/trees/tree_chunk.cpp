@@ -73,12 +73,12 @@ struct StepSum {
   VI lanes;
   // Every part is in two lanes, at most 2^20 in each: after this many parts all lanes together hold no more
   // than 2^31.
-  static constexpr uint32_t most = 1024;
+  static constexpr uint32_t max_parts = 1024;
   uint32_t added = 0;
   uint64_t sum = 0;
   HWY_INLINE StepSum() : lanes(hn::Zero(ds)) {}
   HWY_INLINE void reserve(uint32_t parts) {
-    if (added + parts > most) flush();
+    if (added + parts > max_parts) flush();
     added += parts;
   }
   HWY_INLINE void flush() {
@@ -166,9 +166,9 @@ HWY_INLINE void collect(std::span<const uint32_t> lights, size_t count, const De
 HWY_INLINE size_t write_list(const DepthReach* bounds, uint32_t lights, uint32_t first, uint32_t per_leaf,
                              TreeNode* nodes) {
   size_t count = 0;
-  const uint32_t most = ML_TREE_MAX_LEAF_LIGHTS / per_leaf * per_leaf;
-  for (uint32_t begin = 0; begin < lights; begin += most) {
-    const uint32_t part = std::min(lights - begin, most);
+  const uint32_t max_part = ML_TREE_MAX_LEAF_LIGHTS / per_leaf * per_leaf;
+  for (uint32_t begin = 0; begin < lights; begin += max_part) {
+    const uint32_t part = std::min(lights - begin, max_part);
     DepthReach all = nothing;
     for (uint32_t leaf = begin / per_leaf; leaf * per_leaf < begin + part; ++leaf)
       all = either(all, bounds[leaf]);
@@ -219,7 +219,7 @@ HWY_INLINE size_t write_tree(DepthReach* bounds, uint32_t lights, uint32_t first
 
 // A row of cells, whose lists begin at the offsets, as lists.
 struct ListRow {
-  uint32_t longest = 0;  // the most lights of a cell
+  uint32_t longest = 0;  // the largest number of lights in a cell
   uint32_t filled = 0;   // cells with lights
 };
 HWY_INLINE ListRow write_lists(const uint32_t* offsets, uint32_t count, TreeCell* cells) {
@@ -227,18 +227,18 @@ HWY_INLINE ListRow write_lists(const uint32_t* offsets, uint32_t count, TreeCell
   const hn::CappedTag<uint32_t, 8> du;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
   const auto flag = hn::Set(du, ML_TREE_CELL_LIST);
-  auto most = hn::Zero(du), filled = hn::Zero(du);
+  auto longest = hn::Zero(du), filled = hn::Zero(du);
   uint32_t c = 0;
   for (; c + lanes <= count; c += lanes) {
     const auto first = hn::LoadU(du, offsets + c);
     const auto lights = hn::Sub(hn::LoadU(du, offsets + c + 1), first);
     const auto empty = hn::Eq(lights, hn::Zero(du));
-    most = hn::Max(most, lights);
+    longest = hn::Max(longest, lights);
     filled = hn::Add(filled, hn::IfThenZeroElse(empty, hn::Set(du, 1)));
     hn::StoreInterleaved2(hn::IfThenZeroElse(empty, first), hn::IfThenZeroElse(empty, hn::Or(lights, flag)),
                           du, &cells[c].first);
   }
-  ListRow row{hn::GetLane(hn::MaxOfLanes(du, most)), hn::GetLane(hn::SumOfLanes(du, filled))};
+  ListRow row{hn::GetLane(hn::MaxOfLanes(du, longest)), hn::GetLane(hn::SumOfLanes(du, filled))};
   for (; c < count; ++c) {
     const uint32_t lights = offsets[c + 1] - offsets[c];
     row.longest = std::max(row.longest, lights);

@@ -34,7 +34,7 @@ struct TreeSettings {
 
 struct TreeChunk {
   uint32_t first_cell = 0, end_cell = 0;
-  gpu_data::TreeNode* nodes = nullptr;  // room for node_capacity() of them
+  gpu_data::TreeNode* nodes = nullptr;  // space for node_capacity() of them
   size_t count = 0;                     // of nodes written
   uint64_t first_node = 0;              // of all nodes
   uint64_t list_cells = 0, tree_cells = 0;
@@ -88,8 +88,8 @@ void cell_depth_extents(const FroxelGrid& grid, std::vector<FroxelGrid::DepthRan
 inline float extent_steps(FroxelGrid::DepthRange extent) {
   return extent.high > extent.low ? 65536.0f / (extent.high - extent.low) : 0.0f;
 }
-// 16 steps of the sum have room in what is added in single precision, and a mean beyond is a list by any
-// threshold that chooses.
+// An extent of 16 cells, in the steps of the sum, can be added in single precision, and a cell whose mean is
+// beyond that is a list by any threshold that chooses.
 inline constexpr float max_extents = 16;
 // Whether the mean of `lights` extents, which sum up to `sum` steps, is below the threshold.
 inline bool is_tree(uint64_t sum, uint32_t lights, float threshold) {

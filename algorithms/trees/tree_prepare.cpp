@@ -20,14 +20,14 @@ TreeNode* map_nodes(UploadMemory& memory, uint64_t nodes) {
 }
 
 // Where a single thread can build the nodes so that none has to be copied, or null. How many they will be is
-// not known yet, so there must be room for the most.
+// not known yet, so the capacity is for the largest number possible.
 TreeNode* nodes_in_place(UploadMemory& memory, const FroxelLists& lists, const TreeSettings& trees,
                          const Threads& threads) {
   if (threads.count() > 1) return nullptr;
   map_nodes(memory, 0);
-  const uint64_t room = CellTrees::capacity(lists, trees);
-  if (!memory.cached(nodes_slot) || room * sizeof(TreeNode) > memory.limit()) return nullptr;
-  return map_nodes(memory, room);
+  const uint64_t capacity = CellTrees::capacity(lists, trees);
+  if (!memory.cached(nodes_slot) || capacity * sizeof(TreeNode) > memory.limit()) return nullptr;
+  return map_nodes(memory, capacity);
 }
 
 }  // namespace

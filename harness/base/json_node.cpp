@@ -51,10 +51,10 @@ void Node::object() const {
   if (!json_->is_object()) expected("an object");
 }
 
-size_t Node::list(size_t least, size_t most) const {
-  if (json_->is_array() && json_->size() >= least && json_->size() <= most) return json_->size();
-  expected(least == most ? fmt::format("a list of {}", least)
-                         : fmt::format("a list of {} to {}", least, most));
+size_t Node::list(size_t min_length, size_t max_length) const {
+  if (json_->is_array() && json_->size() >= min_length && json_->size() <= max_length) return json_->size();
+  expected(min_length == max_length ? fmt::format("a list of {}", min_length)
+                                    : fmt::format("a list of {} to {}", min_length, max_length));
 }
 
 int64_t Node::integer(int64_t minimum, int64_t maximum) const {

@@ -40,7 +40,7 @@ class Node {
 
   // Typed values; each throws when the value is another.
   void object() const;
-  size_t list(size_t least, size_t most) const;  // its length
+  size_t list(size_t min_length, size_t max_length) const;  // its length
   int64_t integer(int64_t minimum, int64_t maximum) const;
   uint32_t unsigned_integer(uint32_t minimum, uint32_t maximum) const;
   double real(double minimum, double maximum) const;

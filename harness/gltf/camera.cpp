@@ -18,10 +18,10 @@ constexpr uint32_t times_between_keys = 7;  // at which a moving camera's reach 
 constexpr double reach_margin = 1.001;
 
 // What a configuration can hold: no control characters, at most max_name bytes, whole UTF-8 letters.
-std::string typeable(const std::string& name, size_t most = max_name) {
+std::string typeable(const std::string& name, size_t max_bytes = max_name) {
   std::string result = name;
-  if (result.size() > most) {
-    size_t end = most;
+  if (result.size() > max_bytes) {
+    size_t end = max_bytes;
     while (end > 0 && (static_cast<unsigned char>(result[end]) & 0xc0) == 0x80) --end;
     result.resize(end);
   }

@@ -161,7 +161,7 @@ class MeshLoader {
     size_t material =
         primitive.material < 0 ? triangles_.size() - 1 : static_cast<size_t>(primitive.material);
     std::vector<uint32_t>& list = triangles_of(placed, material, !transforms.is_one());
-    check_room(source.normals < 0 ? corners.size() : count, corners.size(), place);
+    check_capacity(source.normals < 0 ? corners.size() : count, corners.size(), place);
 
     // Mirrored triangles are turned over, so that their fronts stay fronts.
     for (size_t i = 0; i + 2 < corners.size(); i += 3)
@@ -210,7 +210,7 @@ class MeshLoader {
   }
 
   // Before memory is asked for: one mesh may stand on very many nodes.
-  void check_room(size_t vertices, size_t corners, const std::string& place) {
+  void check_capacity(size_t vertices, size_t corners, const std::string& place) {
     corners_ += corners;
     if (scene_.vertices.size() + vertices > max_vertices || corners_ > max_indices)
       file_.fail(place, "the scene has more than " + std::to_string(max_vertices) + " vertices or triangles");

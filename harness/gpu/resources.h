@@ -48,7 +48,7 @@ class Buffer {
 class UploadBuffer {
  public:
   UploadBuffer(Device& device, std::string name) : device_(&device), name_(std::move(name)) {}
-  // Makes room and returns exactly `bytes` writable bytes (0 is allowed; a buffer of 16 bytes is kept then).
+  // Makes space and returns exactly `bytes` writable bytes (0 is allowed; a buffer of 16 bytes is kept then).
   std::span<std::byte> map(size_t bytes);
   const Buffer& host() const { return *host_; }
   const Buffer& shader() const { return device_copy_ ? *device_copy_ : *host_; }

@@ -211,8 +211,8 @@ Commands::Span Commands::span(std::string_view name) {
   Impl& c = *impl_;
   if (is_inner(name)) throw std::logic_error(fmt::format("a slash in the name of the span '{}'", name));
   if (c.stamps_spans()) {
-    // Room for the last stamps of this span, of those around it, and of the submission: a span that ends must
-    // not throw.
+    // Space for the last stamps of this span, of those around it, and of the submission: a span that ends
+    // must not throw.
     ML_CHECK_LE(c.stamp_parts.size() + c.open_spans.size() + 3, max_stamps);
     const std::string around = c.open_spans.empty() ? "" : c.spans[c.open_spans.back()].name + "/";
     c.open_spans.push_back(c.spans.size());

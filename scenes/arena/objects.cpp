@@ -143,8 +143,8 @@ int build_arena_objects(MeshBuilder& mesh, const ArenaMaterials& materials, Rand
   std::vector<Place> places;
   for (const Kind& kind : kinds) {
     for (int built = 0; built < kind.count;) {
-      double most = kArenaHalf - kArenaWall - 0.3 - kind.reach;
-      double x = between(random, -most, most), z = between(random, -most, most);
+      double max_offset = kArenaHalf - kArenaWall - 0.3 - kind.reach;
+      double x = between(random, -max_offset, max_offset), z = between(random, -max_offset, max_offset);
       glm::dvec3 foot(x, 0, z);
       double house = kRoomHalf + kRoomWall + 0.6 + kind.reach;
       if (std::abs(x - kRoomX) < house && std::abs(z - kRoomZ) < house) continue;

@@ -111,9 +111,9 @@ class CheckFrame : public testing::Test {
 
 TEST_F(CheckFrame, AgreesWithTheOracle) {
   Frame frame;
-  float most = 0;
-  for (float count : frame.contributing.data) most = std::max(most, count);
-  ASSERT_GT(most, 3) << "the frame must be worth checking";
+  float max_count = 0;
+  for (float count : frame.contributing.data) max_count = std::max(max_count, count);
+  ASSERT_GT(max_count, 3) << "the frame must be worth checking";
   EXPECT_EQ(run_script(frame), 0);
   EXPECT_EQ(run_script(frame, "--step 3"), 0);
 }

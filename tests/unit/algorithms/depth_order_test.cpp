@@ -36,7 +36,7 @@ TEST(DepthKey, AscendsWithDepthInFineSteps) {
       float a = random_depth(random), b = random_depth(random);
       if (a > b) std::swap(a, b);
       ASSERT_LE(key(a), key(b)) << a << " " << b;
-      ASSERT_LE(key(b), DepthKey::most);
+      ASSERT_LE(key(b), DepthKey::max);
       // As fine up to an octave beyond the far depth.
       const bool inside = near > 0 && a >= near && b <= 2 * std::max(near, far) && far / near < 0x1p29f;
       if (inside && b > a * 1.001f) {

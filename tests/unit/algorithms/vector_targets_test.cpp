@@ -249,13 +249,13 @@ TEST(VectorTargets, RowListsAreThoseOfTheBoxes) {
         const uint32_t longest = simd::list_rows(boxes.data(), nullptr, visible.count, grid, light_end,
                                                  memory, offsets.data(), list.data());
         ASSERT_EQ(offsets[grid.cells()], sum);
-        size_t most = 0;
+        size_t max_length = 0;
         for (uint32_t cell = 0; cell < grid.cells(); ++cell) {
           const auto found = std::span(list).subspan(offsets[cell], offsets[cell + 1] - offsets[cell]);
           ASSERT_TRUE(std::ranges::equal(found, expected[cell])) << "cell " << cell;
-          most = std::max(most, found.size());
+          max_length = std::max(max_length, found.size());
         }
-        ASSERT_EQ(longest, most);
+        ASSERT_EQ(longest, max_length);
       }
     }
   });

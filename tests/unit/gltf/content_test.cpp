@@ -158,7 +158,7 @@ TEST(GltfMaterial, BrokenJpegsAreWhite) {
                   {tiny_jpeg.begin(), tiny_jpeg.begin() + static_cast<ptrdiff_t>(std::max<size_t>(size, 1))}),
               "")
         << size;
-  // Huffman sizes that add up to more than the 256 codes a table has room for.
+  // Huffman sizes that add up to more than the 256 codes a table has space for.
   std::vector<uint8_t> bad = tiny_jpeg;
   for (size_t i = 0; i + 21 < bad.size(); ++i)
     if (bad[i] == 0xff && bad[i + 1] == 0xc4)
