@@ -114,8 +114,8 @@ class UploadMemory {
  public:
   virtual ~UploadMemory() = default;
   // At least `bytes` writable bytes, 64-byte aligned; contents undefined. Valid until the next prepare().
-  // Where the slot is cached(), mapping it again with fewer bytes keeps place and contents. Grows rarely and
-  // never shrinks. Throws SystemError, naming algorithm, slot and limit, when the device cannot hold it.
+  // Where the slot is cached(), mapping it again with fewer bytes keeps address and contents. Grows rarely
+  // and never shrinks. Throws SystemError, naming algorithm, slot and limit, when the device cannot hold it.
   virtual std::span<std::byte> map(uint32_t slot, size_t bytes) = 0;
   // The most bytes that one slot can hold.
   virtual size_t limit() const = 0;
@@ -222,9 +222,9 @@ struct AlgorithmEntry {
   std::function<double(const Parameters&, uint32_t width, uint32_t height, uint32_t lights)> further_seconds;
 };
 
-// All algorithms, in the order in which tables show them. The only place that names them is registry.cpp.
+// All algorithms, in the order in which tables show them. Only registry.cpp names them.
 const std::vector<AlgorithmEntry>& algorithm_registry();
-// Throws UsageError with the nearest known name; `place` begins the message.
-const AlgorithmEntry& find_algorithm(const std::string& name, const std::string& place);
+// Throws UsageError with the nearest known name; `where` begins the message.
+const AlgorithmEntry& find_algorithm(const std::string& name, const std::string& where);
 
 }  // namespace ml

@@ -40,7 +40,7 @@ Node Node::member(const std::string& key) const {
 }
 
 void Node::fail(const std::string& what) const {
-  throw UsageError(place() + ": " + what);
+  throw UsageError(where() + ": " + what);
 }
 
 void Node::expected(const std::string& what) const {

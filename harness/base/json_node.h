@@ -25,7 +25,7 @@ class Node {
   const nlohmann::json& json() const { return *json_; }
   const Source& source() const { return *source_; }
   const std::string& path() const { return path_; }
-  std::string place() const { return source_->name + ": " + path_; }
+  std::string where() const { return source_->name + ": " + path_; }
 
   Node item(size_t index) const {
     return {(*json_)[index], *source_, path_ + "[" + std::to_string(index) + "]"};
