@@ -52,9 +52,9 @@ PathPoint read_point(const Node& node) {
   if (!node.json().is_object()) node.expected("[x, y, z] or an object with x, z and above_ground");
   Members members(node);
   PathPoint point{glm::dvec3(0), true};
-  point.place.x = coordinate(members.get("x"));
-  point.place.z = coordinate(members.get("z"));
-  point.place.y = coordinate(members.get("above_ground"));
+  point.coordinates.x = coordinate(members.get("x"));
+  point.coordinates.z = coordinate(members.get("z"));
+  point.coordinates.y = coordinate(members.get("above_ground"));
   members.expect_no_others();
   return point;
 }
@@ -115,10 +115,12 @@ SceneDescription read_description(const std::string& name, std::string_view json
 
 std::vector<CameraPath> camera_paths(const SceneDescription& description, const GroundHeight& ground) {
   auto placed = [&](const PathPoint& point) {
-    if (!point.above_ground) return point.place;
+    if (!point.above_ground) return point.coordinates;
     if (!ground)
       throw std::logic_error(file_of(description.name) + ": a path is above the ground, and there is none");
-    return glm::dvec3(point.place.x, ground(point.place.x, point.place.z) + point.place.y, point.place.z);
+    return glm::dvec3(point.coordinates.x,
+                      ground(point.coordinates.x, point.coordinates.z) + point.coordinates.y,
+                      point.coordinates.z);
   };
   std::vector<CameraPath> paths;
   for (const PathDescription& described : description.paths) {

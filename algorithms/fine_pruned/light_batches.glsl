@@ -1,5 +1,5 @@
-// Lights tested against bounds 512 at a time by a workgroup of 64 threads, and their places among those that passed.
-// Who includes this says what the candidates are: `uint candidate(uint place)`, a visible index.
+// Lights tested against bounds 512 at a time by a workgroup of 64 threads, and their ranks among those that passed.
+// Who includes this says what the candidates are: `uint candidate(uint index)`, a visible index.
 #ifndef ML_FINE_PRUNED_LIGHT_BATCHES_GLSL
 #define ML_FINE_PRUNED_LIGHT_BATCHES_GLSL
 #include "group_votes.glsl"
@@ -53,9 +53,9 @@ uint next_slot(uint slot) {
 // Closed ranges, as first | last << 16.
 bool ranges_meet(uint a, uint b) { return (a & 0xffffu) <= b >> 16 && (b & 0xffffu) <= a >> 16; }
 
-bool overlaps(ScreenBounds light, ScreenBounds place) {
-  return ranges_meet(light.x, place.x) && ranges_meet(light.y, place.y) &&
-         (!TILE_DEPTHS || light.far >= place.near && light.near <= place.far);
+bool overlaps(ScreenBounds light, ScreenBounds area) {
+  return ranges_meet(light.x, area.x) && ranges_meet(light.y, area.y) &&
+         (!TILE_DEPTHS || light.far >= area.near && light.near <= area.far);
 }
 
 // Rounds of the batch that begins at candidate `first` in which there are candidates before `count`.
@@ -64,11 +64,11 @@ uint rounds_of(uint first, uint count) {
 }
 
 // Those of the batch of candidates from `first` on, and before `count`, that overlap: as bits of passed[field ...].
-void test_batch(uint first, uint count, uint field, ScreenBounds place) {
+void test_batch(uint first, uint count, uint field, ScreenBounds area) {
   const uint thread = gl_LocalInvocationIndex, rounds = rounds_of(first, count);
   for (uint round = 0u; round < rounds; ++round) {
     const uint at = first + round * ML_PRUNED_GROUP + thread;
-    const uint bit = at < count && overlaps(bounds_of(candidate(at)), place) ? 1u << (thread & 31u) : 0u;
+    const uint bit = at < count && overlaps(bounds_of(candidate(at)), area) ? 1u << (thread & 31u) : 0u;
     SET_BITS(passed[field + round * 2u], (thread < 32u ? bit : 0u))
     SET_BITS(passed[field + round * 2u + 1u], (thread < 32u ? 0u : bit))
   }
@@ -76,11 +76,11 @@ void test_batch(uint first, uint count, uint field, ScreenBounds place) {
 
 uvec2 passed_in(uint field, uint round) { return uvec2(passed[field + round * 2u], passed[field + round * 2u + 1u]); }
 
-uint bits_before(uvec2 mask, uint place) {
-  return place < 32u ? uint(bitCount(mask.x & ((1u << place) - 1u)))
-                     : uint(bitCount(mask.x) + bitCount(mask.y & ((1u << (place - 32u)) - 1u)));
+uint bits_before(uvec2 mask, uint bit) {
+  return bit < 32u ? uint(bitCount(mask.x & ((1u << bit) - 1u)))
+                   : uint(bitCount(mask.x) + bitCount(mask.y & ((1u << (bit - 32u)) - 1u)));
 }
 
-bool has_bit(uvec2 mask, uint place) { return ((place < 32u ? mask.x >> place : mask.y >> (place - 32u)) & 1u) != 0u; }
+bool has_bit(uvec2 mask, uint bit) { return ((bit < 32u ? mask.x >> bit : mask.y >> (bit - 32u)) & 1u) != 0u; }
 
 #endif

@@ -20,7 +20,7 @@ uint lights_before(uint begin, uint count, uint value) {
   return at;
 }
 
-// Place in the chunk at which its probe lights begin.
+// Index in the chunk of its first probe light.
 uint probes_from(uint begin, uint count) {
   return EFFECT_PROBES ? lights_before(begin, count, visible.first_probe) : count;
 }

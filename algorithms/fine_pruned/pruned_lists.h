@@ -23,7 +23,7 @@ ML_NAMESPACE_BEGIN
 #define ML_BOUNDS_BALL 2u  // the balls alone: around its position, and the smaller one around a cone
 
 // In front of the visible lights' indices, which are sorted: direct lights before probe lights, and each by
-// type: balls (omni, capsule), cones (spot, wedge), boxes. A light's place in that order is its visible
+// type: balls (omni, capsule), cones (spot, wedge), boxes. A light's rank in that order is its visible
 // index. Tiles' lists keep the order, so a list's direct lights and its probe lights are two lists, one
 // after the other.
 struct VisibleHeader {
@@ -68,8 +68,8 @@ ML_FUNCTION uint listed_pair(uint direct, uint probes) {
 ML_FUNCTION uint packed_count(uint word) {
   return word >> 30;
 }
-ML_FUNCTION uint packed_index(uint word, uint place) {
-  return word >> (place * 10u) & 0x3ffu;
+ML_FUNCTION uint packed_index(uint word, uint slot) {
+  return word >> (slot * 10u) & 0x3ffu;
 }
 
 ML_NAMESPACE_END

@@ -10,7 +10,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #include "shaders/surface.glsl"
 
-uint candidate(uint place) { return place; }
+uint candidate(uint index) { return index; }
 #include "light_batches.glsl"
 
 layout(local_size_x = ML_PRUNED_GROUP) in;

@@ -2,7 +2,7 @@
 // light's screen bounds against the tile's. Fine: the coarse lights' true volumes against the tile's pixels, 64 lights
 // at a time.
 //
-// Order comes from bits: a batch of lights is tested into a bit field, and a light's place in the list is the number of
+// Order comes from bits: a batch of lights is tested into a bit field, and a light's rank in the list is the number of
 // bits before its own. So it depends neither on the order of threads nor on the width of a subgroup
 // (light_batches.glsl).
 #version 460
@@ -20,13 +20,13 @@
 // The tile's region has listed the lights that it may have (regions.comp).
 layout(constant_id = 35) const bool REGIONS = false;
 uint region_list;                                     // where its list begins
-uint candidate(uint place);
+uint candidate(uint index);
 #include "light_batches.glsl"
 
 layout(local_size_x = ML_PRUNED_GROUP) in;
 layout(constant_id = 32) const uint MODE = 0u;
 const uint mode_count = 0u;   // only counts the coarse lights
-const uint mode_lists = 1u;   // writes the list at the place that offsets.comp found for it
+const uint mode_lists = 1u;   // writes the list where offsets.comp found space for it
 const uint mode_packed = 2u;  // the chapter's limits, and 32 bytes a list
 
 layout(scalar, binding = 18) buffer TileLists { uvec2 tile_lists[]; };  // first light and count
@@ -50,7 +50,7 @@ void poison_shared() {
   barrier();
 }
 
-uint candidate(uint place) { return REGIONS ? region_lists[region_list + 1u + place] : place; }
+uint candidate(uint index) { return REGIONS ? region_lists[region_list + 1u + index] : index; }
 
 #include "prune.glsl"
 
@@ -63,8 +63,8 @@ void append_chunk(uint begin, uint count, uint first, inout uint listed) {
     const uint probes = probes_from(begin, count), direct = probes < 64u ? bits_before(mask, probes) : all;
     if (has_bit(mask, thread)) {
       const bool probe = thread >= probes;
-      const uint place = bits_before(mask, thread) - (probe ? direct : 0u);
-      if (place < ML_PACKED_LIGHTS) kept[(probe ? ML_PACKED_LIGHTS : 0u) + place] = coarse[begin + thread];
+      const uint rank = bits_before(mask, thread) - (probe ? direct : 0u);
+      if (rank < ML_PACKED_LIGHTS) kept[(probe ? ML_PACKED_LIGHTS : 0u) + rank] = coarse[begin + thread];
     }
     listed = listed_pair(direct, all - direct);
     return;
@@ -81,9 +81,9 @@ uint keep_batch(uint first_light, uint count, uint field, uint held) {
   for (uint round = 0u; round < rounds; ++round) {
     const uvec2 mask = passed_in(field, round);
     if (MODE != mode_count && has_bit(mask, thread)) {
-      const uint place = before + bits_before(mask, thread);
-      if (MODE == mode_lists || place < ML_PRUNED_CHUNK)
-        coarse[place] = candidate(first_light + round * ML_PRUNED_GROUP + thread);
+      const uint rank = before + bits_before(mask, thread);
+      if (MODE == mode_lists || rank < ML_PRUNED_CHUNK)
+        coarse[rank] = candidate(first_light + round * ML_PRUNED_GROUP + thread);
     }
     before += bitCount(mask.x) + bitCount(mask.y);
   }

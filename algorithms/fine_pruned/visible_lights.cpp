@@ -13,7 +13,7 @@ FroxelGrid tile_grid(const gpu_data::ViewData& view) {
 
 constexpr size_t types = 6;
 
-// Place in the sequence of loops over lights (section 2.4); probe lights come after all direct ones.
+// Rank in the sequence of loops over lights (section 2.4); probe lights come after all direct ones.
 size_t type_of(uint32_t id_shape) {
   const size_t first = id_shape & ML_LIGHT_PROBE ? types / 2 : 0;
   switch (id_shape >> 24) {

@@ -110,15 +110,15 @@ size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsCon
             VisibleLights& visible, DepthReach* reaches = nullptr);
 // boxes[i]: of light i of the run; whole vectors are written. Returns the sum of the boxes' froxels.
 uint64_t bound(const VisibleRun& visible, const BoundsConstants& constants, LightBox* boxes);
-// Writes the pairs of the boxes boxes[places[0..count)], or boxes[0..count) without places, one after the
+// Writes the pairs of the boxes boxes[indices[0..count)], or boxes[0..count) without indices, one after the
 // other.
-void emit(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+void emit(const LightBox* boxes, const uint32_t* indices, size_t count, const FroxelGrid& grid,
           const BoxOffsets& offsets, FroxelPairs& pairs);
 }  // namespace simd
 
-// Sum of the boxes' froxels, the pairs that emit() will write; places as there. bound() returns that of a
+// Sum of the boxes' froxels, the pairs that emit() will write; indices as there. bound() returns that of a
 // whole run.
-uint64_t count_pairs(const LightBox* boxes, const uint32_t* places, size_t count);
+uint64_t count_pairs(const LightBox* boxes, const uint32_t* indices, size_t count);
 // Makes space for `count` pairs and the vector code's padding.
 void reserve_pairs(FroxelPairs& pairs, size_t count, bool with_reaches = false);
 

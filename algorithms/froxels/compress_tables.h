@@ -19,9 +19,9 @@ inline constexpr auto kept_of_eight = [] {
 alignas(16) inline constexpr auto kept_bytes_of_four = [] {
   std::array<std::array<uint8_t, 16>, 16> table{};
   for (uint32_t mask = 0; mask < table.size(); ++mask)
-    for (uint8_t place = 0; place < 4; ++place)
+    for (uint8_t lane = 0; lane < 4; ++lane)
       for (uint8_t byte = 0; byte < 4; ++byte)
-        table[mask][4u * place + byte] = static_cast<uint8_t>(4u * kept_of_eight[mask][place] + byte);
+        table[mask][4u * lane + byte] = static_cast<uint8_t>(4u * kept_of_eight[mask][lane] + byte);
   return table;
 }();
 

@@ -28,19 +28,19 @@ class DepthKey {
 };
 
 // A run of visible lights: elements [first, first + count) of arrays that all runs share.
-struct PlaceRun {
+struct IndexRun {
   size_t first, count;
 };
 
 class DepthOrder {
  public:
-  // Radix sort, least significant byte first. `z`: view depths by place; `runs`: the places in use,
+  // Radix sort, least significant byte first. `z`: view depths by index; `runs`: the indices in use,
   // ascending, below 2^24. Lights of equal keys keep their order, so the result does not depend on the number
   // of runs.
-  void sort(const float* z, std::span<const PlaceRun> runs, const DepthKey& key, Threads& threads);
+  void sort(const float* z, std::span<const IndexRun> runs, const DepthKey& key, Threads& threads);
 
-  // The place of each rank; vector padding after them.
-  std::span<const uint32_t> places() const { return std::span(places_).first(count_); }
+  // The index of each rank; vector padding after them.
+  std::span<const uint32_t> indices() const { return std::span(indices_).first(count_); }
 
  private:
   static constexpr uint32_t digits = 256;
@@ -52,8 +52,8 @@ class DepthOrder {
 
   size_t count_ = 0;
   std::vector<uint16_t> keys_;
-  // Upper byte of the key above 24 bits of place, in the order of the lower byte.
-  std::vector<uint32_t> items_, places_;
+  // Upper byte of the key above 24 bits of index, in the order of the lower byte.
+  std::vector<uint32_t> items_, indices_;
   std::vector<Run> runs_;
 };
 

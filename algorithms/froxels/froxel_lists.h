@@ -114,13 +114,13 @@ class FroxelLists {
   RefinementPlanes planes_;
   BallTest ball_test_;
   // One for each of runs_ and of parts_ is in use.
-  std::vector<PlaceRun> runs_;
+  std::vector<IndexRun> runs_;
   std::vector<Part> parts_;
   VisibleLights visible_;
   std::vector<DepthReach> reaches_, entry_reaches_;
   DepthOrder order_;
   RowMemory row_memory_;
-  std::vector<LightBox> boxes_;  // by place in visible_
+  std::vector<LightBox> boxes_;  // by index in visible_
   std::vector<uint32_t> offsets_, own_list_;
   std::span<uint32_t> list_;  // own_list_ or upload memory
   size_t entries_ = 0;

@@ -180,7 +180,7 @@ void SphereTree::fit(uint32_t node) {
 void SphereTree::follow(const FrameLights& lights) {
   const auto count = static_cast<uint32_t>(lights.count());
   leaf_of_light_.resize(std::max<size_t>(leaf_of_light_.size(), identity_end(lights)), none);
-  // Every leaf gets its light's new place, or none.
+  // Every leaf gets its light's new index, or none.
   uint32_t stay = 0;
   for (uint32_t leaf : leaf_of_light_)
     if (leaf != none) nodes_[leaf].light = gone;
@@ -228,9 +228,9 @@ void SphereTree::refit() {
 void SphereTree::remove(uint32_t leaf) {
   const uint32_t parent = nodes_[leaf].parent;
   Node& p = nodes_[parent];
-  const uint32_t place =
+  const uint32_t slot =
       static_cast<uint32_t>(std::find(p.child.begin(), p.child.begin() + p.children, leaf) - p.child.begin());
-  p.child[place] = p.child[--p.children];
+  p.child[slot] = p.child[--p.children];
   uint32_t dirty = parent;
   if (p.children == 1) {
     // The one child that is left takes the parent's place.

@@ -5,8 +5,9 @@
 #ifndef ML_MASKED_WALK_GLSL
 #define ML_MASKED_WALK_GLSL
 
-// Place of a node after the root of a full binary tree that is stored depth first (algorithms/trees/tree_chunk.h).
-uint depth_first_place(uint height, uint level, uint index) {
+// Index of a node, counted from the root, in a full binary tree that is stored depth first
+// (algorithms/trees/tree_chunk.h).
+uint depth_first_index(uint height, uint level, uint index) {
   return level + (index << (height - level + 1u)) - uint(bitCount(index));
 }
 
@@ -17,11 +18,11 @@ uint nodes_hit(LightCursor cursor, uint height, uint level, uint index, uint cou
   const uint lanes = min(subgroup_lanes(), 8u), lane = gl_SubgroupInvocationID;
   uint hits = 0u, first = 0u;
   do {
-    const uint own = first + lane, place = cursor.node + depth_first_place(height, level, index + own);
-    const bool exists = lane < lanes && own < count && place < cursor.end;
+    const uint own = first + lane, stored = cursor.node + depth_first_index(height, level, index + own);
+    const bool exists = lane < lanes && own < count && stored < cursor.end;
     float low = any_depth, high = -any_depth;
     if (exists) {
-      const TreeNode node = tree_node(place);
+      const TreeNode node = tree_node(stored);
       low = node.low;
       high = node.high;
     }

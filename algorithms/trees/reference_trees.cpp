@@ -68,7 +68,7 @@ void ReferenceTrees::build_tree(const ReferenceLists& lists, uint32_t cell, uint
     tables_.push_back(std::move(table));
   }
   const size_t first = nodes_.size();
-  for (uint32_t place : tables_[height]) append(tree_[place]);
+  for (uint32_t index : tables_[height]) append(tree_[index]);
   if (trim)
     while (nodes_.size() > first && nodes_.back().low > nodes_.back().high) nodes_.pop_back();
 }

@@ -183,21 +183,21 @@ void write_padding(uint32_t height, uint32_t lights, uint32_t per_leaf, TreeNode
     const uint32_t used = (lights - 1) / (per_leaf << (height - level)) + 1;
     const uint32_t word = packed(level == height, 0, (2u << (height - level)) - 1);
     for (uint32_t index = used; index < 1u << level; ++index)
-      nodes[depth_first_place(height, level, index)] = node_of(nothing, 0, word);
+      nodes[depth_first_index(height, level, index)] = node_of(nothing, 0, word);
   }
 }
 
 // Bottom-up from the leaves' bounds, every level from the one below it and in its place; each node goes to
-// its depth-first place. Of `bounds` there is one more than leaves. Returns the number of nodes.
+// its depth-first index. Of `bounds` there is one more than leaves. Returns the number of nodes.
 HWY_INLINE size_t write_tree(DepthReach* bounds, uint32_t lights, uint32_t first, uint32_t per_leaf,
                              bool trim, TreeNode* nodes) {
   uint32_t used = (lights + per_leaf - 1) / per_leaf;
   const uint32_t leaves = std::bit_ceil(used);
   const auto height = static_cast<uint32_t>(std::countr_zero(leaves));
   ML_DCHECK_LE(leaves, ML_TREE_MAX_LEAVES);
-  const size_t trimmed = depth_first_place(height, height, used - 1) + 1;
+  const size_t trimmed = depth_first_index(height, height, used - 1) + 1;
   for (uint32_t leaf = 0; leaf < used; ++leaf)
-    nodes[depth_first_place(height, height, leaf)] =
+    nodes[depth_first_index(height, height, leaf)] =
         node_of(bounds[leaf], first + leaf * per_leaf, packed(true, per_leaf, 1));
   nodes[trimmed - 1].packed = packed(true, lights - (used - 1) * per_leaf, 1);
   uint32_t lights_below = per_leaf;
@@ -208,9 +208,9 @@ HWY_INLINE size_t write_tree(DepthReach* bounds, uint32_t lights, uint32_t first
     used = (used + 1) / 2;
     for (uint32_t index = 0; index < used; ++index) {
       bounds[index] = either(bounds[2 * index], bounds[2 * index + 1]);
-      nodes[depth_first_place(height, level, index)] = node_of(bounds[index], lights_below, word);
+      nodes[depth_first_index(height, level, index)] = node_of(bounds[index], lights_below, word);
     }
-    nodes[depth_first_place(height, level, used - 1)].first_or_below = lights - (used - 1) * lights_below;
+    nodes[depth_first_index(height, level, used - 1)].first_or_below = lights - (used - 1) * lights_below;
   }
   if (trim) return trimmed;
   write_padding(height, lights, per_leaf, nodes);

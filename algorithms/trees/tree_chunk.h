@@ -26,7 +26,7 @@ struct TreeSettings {
   // Leave out the nodes after the last leaf that has lights: only padding.
   bool trim_padding = true;
   // Lists are trees of one node, as in the paper (section 3.4), or several one after the other where a leaf
-  // cannot count them; else a list's place stands in its cell.
+  // cannot count them; else its cell says where a list is.
   bool list_nodes = false;
   // Cells of no more lights are lists whatever their depths.
   uint32_t short_list() const { return std::max(lights_per_leaf, list_lights); }
@@ -46,7 +46,7 @@ struct TreeChunk {
 };
 
 namespace simd {
-// Builds the cells of the chunk into cells[cell]; nodes are numbered by their place in chunk.nodes.
+// Builds the cells of the chunk into cells[cell]; nodes are numbered by their index in chunk.nodes.
 // `cell_depths`: of each slice (cell_depth_extents()).
 void build_chunk(const FroxelLists& lists, const TreeSettings& settings,
                  std::span<const FroxelGrid::DepthRange> cell_depths, gpu_data::TreeCell* cells,
@@ -71,11 +71,11 @@ inline uint64_t node_capacity(const TreeSettings& settings, std::span<const uint
          (settings.list_nodes ? offsets.size() : 0);
 }
 
-// Place of a node in a full binary tree of 2^height leaves stored depth first: node `index` of level `level`
+// Index of a node in a full binary tree of 2^height leaves stored depth first: node `index` of level `level`
 // (the root is level 0). Before it stand its ancestors and the whole subtrees to their left: for every set
 // bit of the index one of 2^(height - level + bit + 1) - 1 nodes. Always inlined, for the instructions of the
 // caller's target.
-[[gnu::always_inline]] inline uint32_t depth_first_place(uint32_t height, uint32_t level, uint32_t index) {
+[[gnu::always_inline]] inline uint32_t depth_first_index(uint32_t height, uint32_t level, uint32_t index) {
   return level + (index << (height - level + 1)) - static_cast<uint32_t>(std::popcount(index));
 }
 

@@ -91,7 +91,7 @@ std::vector<ParameterInfo> tree_parameters() {
       ParameterInfo::integer("lights_per_leaf", 8, 1, 64,
                              "lights in a leaf; raised where a tree would have more than 2048 leaves"),
       ParameterInfo::choice("lists", "cell", {"cell", "node"},
-                            "a list's place stands in its cell, or in a tree of one node (section 3.4)"),
+                            "its cell says where a list is, or a tree of one node does (section 3.4)"),
       ParameterInfo::boolean("trim_padding", true, "leave out the nodes after a tree's last light"),
       ParameterInfo::choice("node_depths", "chord", {"chord", "ball"},
                             "with ball_test nodes hold the depths at which balls are met in the cell's "

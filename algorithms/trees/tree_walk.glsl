@@ -15,7 +15,7 @@ QUADS(TreeCellsQuads, 17);
 QUADS(TreeNodesQuads, 18);
 layout(scalar, binding = 19) readonly buffer Indices { uint tree_lights[]; };
 
-uint run_light(uint place) { return index_of(tree_lights[index_word(place)], place); }
+uint run_light(uint entry) { return index_of(tree_lights[index_word(entry)], entry); }
 
 TreeCell tree_cell(uint cell) {
   if (!TEXEL_FETCH) return tree_cells[cell];
@@ -23,9 +23,9 @@ TreeCell tree_cell(uint cell) {
   return (cell & 1u) != 0u ? TreeCell(two.z, two.w) : TreeCell(two.x, two.y);
 }
 
-TreeNode tree_node(uint place) {
-  if (!TEXEL_FETCH) return tree_nodes[place];
-  const uvec4 words = texelFetch(TreeNodesQuads, int(place));
+TreeNode tree_node(uint index) {
+  if (!TEXEL_FETCH) return tree_nodes[index];
+  const uvec4 words = texelFetch(TreeNodesQuads, int(index));
   return TreeNode(uintBitsToFloat(words.x), uintBitsToFloat(words.y), words.z, words.w);
 }
 
@@ -45,11 +45,11 @@ struct LightCursor {
 
 // `counted`: the pixel itself walks the tree, and does not only help.
 LightCursor cell_begin(uint cell, float depth, bool counted) {
-  const TreeCell place = tree_cell(cell);
-  const bool list = !HAS_TREES || (place.end & ML_TREE_CELL_LIST) != 0u;
+  const TreeCell stored = tree_cell(cell);
+  const bool list = !HAS_TREES || (stored.end & ML_TREE_CELL_LIST) != 0u;
   // A list is at once what a tree's walk finds in a leaf.
-  const uint node = list ? 0u : place.first, end = list ? 0u : place.end;
-  const uint next = list ? place.first : 0u, last = list ? place.first + (place.end & ~ML_TREE_CELL_LIST) : 0u;
+  const uint node = list ? 0u : stored.first, end = list ? 0u : stored.end;
+  const uint next = list ? stored.first : 0u, last = list ? stored.first + (stored.end & ~ML_TREE_CELL_LIST) : 0u;
   // To the masked walk a list is one leaf.
   LightCursor cursor =
       LightCursor(node, end, next, last, depth, next, last - next, -any_depth, any_depth, last - next, 1u, 0u);

@@ -116,7 +116,7 @@ void SetupProof::look(const std::vector<uint32_t>& frames) {
   for (uint32_t index : frames) {
     stop_if_interrupted();
     frame_.load(workload_.frames().at(index));
-    unseen += frame_.occupied_blocks().places().empty();
+    unseen += frame_.occupied_blocks().positions().empty();
   }
   const auto count = static_cast<uint32_t>(frames.size());
   require_surface(setup_, unseen, count);
@@ -183,7 +183,7 @@ void SetupProof::prove_references(const FrameInput& input, uint32_t index) {
 
 void SetupProof::prove_brute_force(const FrameInput& input) {
   Spans spans;
-  brute_->prepare(input, spans, frame_.occupied_blocks().places());
+  brute_->prepare(input, spans, frame_.occupied_blocks().positions());
   brute_->count_blocks(frame_, input, blocks_);
   brute_image_ = result_picture(frame_);
   const PixelCounts counts = read_counts(frame_);
@@ -197,7 +197,7 @@ void SetupProof::prove_brute_force(const FrameInput& input) {
     reference_short_ += counts.tested[pixel] != input.lights.count();
   }
   if (!brute64_) return;
-  brute64_->prepare(input, spans, frame_.occupied_blocks().places());
+  brute64_->prepare(input, spans, frame_.occupied_blocks().positions());
   brute64_->count_blocks(frame_, input, blocks_);
   const Picture twice = result_picture(frame_);
   for (size_t pixel : sampled_)
@@ -225,7 +225,7 @@ void SetupProof::prove_case(size_t i, const FrameInput& input) {
   Tally& tally = tallies_[i];
   ShadedAlgorithm& algorithm = *algorithms_[i];
   Spans spans;
-  algorithm.prepare(input, spans, frame_.occupied_blocks().places());
+  algorithm.prepare(input, spans, frame_.occupied_blocks().positions());
   const uint64_t digest = algorithm.upload_digest();
   algorithm.count(frame_, input);
   PixelCounts counts = read_counts(frame_);
@@ -251,7 +251,7 @@ void SetupProof::prove_case(size_t i, const FrameInput& input) {
     });
 
   // The second time, and the timed program instead of the counting one.
-  algorithm.prepare(input, spans, frame_.occupied_blocks().places());
+  algorithm.prepare(input, spans, frame_.occupied_blocks().positions());
   tally.same_bytes &= digest == algorithm.upload_digest();
   algorithm.count(frame_, input);
   PixelCounts again = read_counts(frame_);

@@ -290,7 +290,7 @@ void ShadedAlgorithm::record_loop(gpu::Commands& commands, DeviceFrame& frame, c
     auto span = commands.span("shade");
     if (one_class_)
       shade_blocks(commands, variant, into, input, 0,
-                   static_cast<uint32_t>(frame.occupied_blocks().places().size()));
+                   static_cast<uint32_t>(frame.occupied_blocks().positions().size()));
     for (uint32_t c = 0; !one_class_ && c < block_ends_.size(); ++c) {
       variant.tile_class = c;
       shade_blocks(commands, variant, into, input, c == 0 ? 0 : block_ends_[c - 1], block_ends_[c]);

@@ -38,10 +38,10 @@ std::vector<size_t> largest(const FrameLights& lights, uint32_t count) {
   std::vector<size_t> found;
   for (size_t i = 0; i < lights.count(); ++i) {
     if (lights.core[i].id_shape & ML_LIGHT_PROBE) continue;
-    auto place = std::upper_bound(found.begin(), found.end(), i,
-                                  [&](size_t a, size_t b) { return lights.radius[a] > lights.radius[b]; });
-    if (place == found.end() && found.size() == count) continue;
-    found.insert(place, i);
+    auto next = std::upper_bound(found.begin(), found.end(), i,
+                                 [&](size_t a, size_t b) { return lights.radius[a] > lights.radius[b]; });
+    if (next == found.end() && found.size() == count) continue;
+    found.insert(next, i);
     if (found.size() > count) found.pop_back();
   }
   return found;

@@ -45,7 +45,7 @@ bool spawn(const LightNumbers& number, double seconds, Light& light) {
   return thinnest >= kMinLightRadius;
 }
 
-// The lights of a clump circle together, whatever the placement: 2 to 6 m about their places, 0.02 to 0.06
+// The lights of a clump circle together, whatever the placement: 2 to 6 m about their positions, 0.02 to 0.06
 // turns a second, either way round. The others drift.
 bool circle(uint32_t seed_hash, const LightNumbers& number, double seconds, Light& light) {
   std::optional<uint32_t> clump = clump_of(number);

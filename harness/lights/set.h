@@ -74,11 +74,11 @@ class LightSet {
   LightSet(const LightSpec& spec, const Scene& scene);
 
   // The lights that shine in frame `frame` of a path of `frames` frames that lasts `duration` seconds, in
-  // ascending order of their stable identity. drift: each light orbits its place within its own radius.
+  // ascending order of their stable identity. drift: each light orbits its position within its own radius.
   // spawn: each light has a seeded life and pause, and fades in and out by its size (scale_size); about 70 %
   // shine at once. orbit: the lights of a clump circle together, those of no clump drift, and all come and go
   // as with spawn. A camera that stands still (duration 0) runs at 60 frames a second, so that its lights
-  // still move. Never returns a light that rejection_reason() refuses. `identity`: the place of each in
+  // still move. Never returns a light that rejection_reason() refuses. `identity`: the index of each in
   // base(), which is the same light's in every frame; may be null. Reuses both; allocates nothing once they
   // have their capacity, unless nodes carry lights: those are moved first (a light whose node has scale 0
   // does not shine in that frame).

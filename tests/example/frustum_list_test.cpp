@@ -47,7 +47,7 @@ TEST_P(FrustumList, LosesNoLight) {
     const FrameInput& input = frames.at(index);
     frame.load(input);
     frame.find_contributing(input, LightLists::none);
-    algorithm.prepare(input, spans, frame.occupied_blocks().places());
+    algorithm.prepare(input, spans, frame.occupied_blocks().positions());
     algorithm.count(frame, input);
     FrameCounters counters =
         summarize(read_counts(frame), frame.contributing(), lit_pixels(frame), algorithm.counters());

@@ -20,7 +20,7 @@ layout(scalar, binding = 0) readonly buffer Values { uint values[]; };
 layout(scalar, binding = 1) writeonly buffer Answers { Answer answers[]; };
 
 void main() {
-  const uint place = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex, value = values[place];
+  const uint index = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex, value = values[index];
   Answer answer;
   answer.size = gl_SubgroupSize;
   answer.subgroup = gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID;
@@ -42,5 +42,5 @@ void main() {
     }
     answer.iterations++;
   }
-  answers[place] = answer;
+  answers[index] = answer;
 }

@@ -64,7 +64,7 @@ TEST_F(HardCases, FinePruned_TilesWithoutSpaceWalkAllVisibleLights) {
     parameters.set(real.parameters, "walk", std::string(walk), "test");
     ShadedAlgorithm starved(device(), entry, parameters, check.frame().options());
     Spans spans;
-    starved.prepare(check.input(), spans, check.frame().occupied_blocks().places());
+    starved.prepare(check.input(), spans, check.frame().occupied_blocks().positions());
     ASSERT_EQ(starved.counters().in_frustum, 380u);
     starved.count(check.frame(), check.input());
     const PixelCounts counts = read_counts(check.frame());

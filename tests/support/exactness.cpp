@@ -210,7 +210,7 @@ Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& li
   seen.lit = ml::lit_pixels(frame_);
 
   Spans spans;
-  brute_.prepare(input_, spans, frame_.occupied_blocks().places());
+  brute_.prepare(input_, spans, frame_.occupied_blocks().positions());
   brute_.count(frame_, input_);
   seen.image = result_picture(frame_);
   seen.reference = read_counts(frame_);
@@ -223,7 +223,7 @@ Seen Exactness::expect_trials(const Camera& camera, const std::vector<Light>& li
 
   for (ShadedAlgorithm& ideal : ideals_) {
     SCOPED_TRACE(ideal.wanted_lists() == LightLists::groups ? "ideal, together" : "ideal");
-    ideal.prepare(input_, spans, frame_.occupied_blocks().places());
+    ideal.prepare(input_, spans, frame_.occupied_blocks().positions());
     ideal.count(frame_, input_);
     const PixelCounts counts = read_counts(frame_);
     EXPECT_EQ(mismatches(counts, seen.truth), 0u) << "pixels";
@@ -256,7 +256,7 @@ void Exactness::expect_trial(const Trial& trial, Seen& seen) {
   Slot& slot = slot_of(trial);
   ShadedAlgorithm& algorithm = *slot.shaded;
   Spans spans;
-  algorithm.prepare(input_, spans, frame_.occupied_blocks().places());
+  algorithm.prepare(input_, spans, frame_.occupied_blocks().positions());
   const uint64_t digest = algorithm.upload_digest();
   algorithm.count(frame_, input_);
   PixelCounts counts = read_counts(frame_);
@@ -283,7 +283,7 @@ void Exactness::expect_trial(const Trial& trial, Seen& seen) {
     Threads threads(count);
     FrameInput again = input_;
     again.threads = &threads;
-    algorithm.prepare(again, spans, frame_.occupied_blocks().places());
+    algorithm.prepare(again, spans, frame_.occupied_blocks().positions());
     EXPECT_EQ(algorithm.upload_digest(), digest) << count << " threads";
   }
   algorithm.count(frame_, input_);

@@ -51,12 +51,12 @@ struct Trees {
   // Listing 3: the lights that a pixel of this cell and depth gets to see, in order.
   std::vector<uint32_t> walk(uint32_t cell, float depth) const {
     std::vector<uint32_t> lights;
-    const gpu_data::TreeCell place = cell_trees.cells()[cell];
-    if (place.end & ML_TREE_CELL_LIST) {
-      const auto list = lists.entries().subspan(place.first, place.end & ~ML_TREE_CELL_LIST);
+    const gpu_data::TreeCell stored = cell_trees.cells()[cell];
+    if (stored.end & ML_TREE_CELL_LIST) {
+      const auto list = lists.entries().subspan(stored.first, stored.end & ~ML_TREE_CELL_LIST);
       return {list.begin(), list.end()};
     }
-    for (uint32_t i = place.first; i < place.end;) {
+    for (uint32_t i = stored.first; i < stored.end;) {
       const TreeNode& node = nodes[i];
       const bool hit = node.low <= depth && depth <= node.high;
       if (hit && tree_is_leaf(node))
@@ -143,7 +143,7 @@ TEST(CellTrees, BuiltInPlaceTheyAreTheSameAndKeepToTheirCapacity) {
   }
 }
 
-TEST(CellTrees, DepthFirstPlacesAreThoseOfAWalk) {
+TEST(CellTrees, DepthFirstIndicesAreThoseOfAWalk) {
   for (uint32_t height = 0; height <= 12; ++height) {
     std::vector<std::pair<uint32_t, uint32_t>> order;  // (level, index)
     auto visit = [&](auto& self, uint32_t level, uint32_t index) -> void {
@@ -151,8 +151,8 @@ TEST(CellTrees, DepthFirstPlacesAreThoseOfAWalk) {
       if (level < height) self(self, level + 1, 2 * index), self(self, level + 1, 2 * index + 1);
     };
     visit(visit, 0, 0);
-    for (uint32_t place = 0; place < order.size(); ++place)
-      ASSERT_EQ(depth_first_place(height, order[place].first, order[place].second), place);
+    for (uint32_t i = 0; i < order.size(); ++i)
+      ASSERT_EQ(depth_first_index(height, order[i].first, order[i].second), i);
   }
 }
 
