@@ -71,7 +71,7 @@ class FroxelLists {
   // The most entries of one froxel.
   uint32_t longest() const { return longest_; }
 
-  // Whether the lists came from sweeping over rows (row_lists.h) rather than from pairs.
+  // Whether the lists were made row by row (row_lists.h) rather than from pairs.
   bool built_by_rows() const { return by_rows_; }
 
   // Order by depth only: the depths (m) that each light in a list reaches, by light index.

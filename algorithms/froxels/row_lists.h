@@ -44,7 +44,7 @@ uint32_t list_rows(const LightBox* boxes, const uint32_t* indices, size_t count,
                    size_t light_end, RowMemory& memory, uint32_t* offsets, uint32_t* list);
 }  // namespace simd
 
-// Whether sweeping is cheaper than `pairs` pairs of a froxel and a light: a step of either costs about the
+// Whether list_rows() is cheaper than `pairs` pairs of a froxel and a light: a step of either costs about the
 // same. boxes[0..count) in any order.
 bool rows_are_cheaper(const LightBox* boxes, size_t count, uint64_t pairs, const FroxelGrid& grid,
                       size_t light_end);

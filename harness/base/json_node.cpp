@@ -83,7 +83,7 @@ bool Node::boolean() const {
   return json_->get<bool>();
 }
 
-std::string Node::text(size_t least_letters, size_t max_letters) const {
+std::string Node::text(size_t min_letters, size_t max_letters) const {
   if (!json_->is_string()) expected("a text");
   std::string text = json_->get<std::string>();
   size_t letters = 0;
@@ -92,8 +92,8 @@ std::string Node::text(size_t least_letters, size_t max_letters) const {
     if (byte < 0x20 || byte == 0x7f) fail("control characters and line breaks are not allowed in a text");
     letters += (byte & 0xc0) != 0x80;
   }
-  if (letters < least_letters || letters > max_letters) {
-    expected(fmt::format("a text of {} to {} letters", least_letters, max_letters));
+  if (letters < min_letters || letters > max_letters) {
+    expected(fmt::format("a text of {} to {} letters", min_letters, max_letters));
   }
   return text;
 }

@@ -46,7 +46,7 @@ class Node {
   double real(double minimum, double maximum) const;
   bool boolean() const;
   // Without control characters.
-  std::string text(size_t least_letters, size_t max_letters) const;
+  std::string text(size_t min_letters, size_t max_letters) const;
   // Index of the word among `names`.
   size_t choice(const std::vector<std::string>& names) const;
 

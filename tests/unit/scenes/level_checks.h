@@ -89,8 +89,8 @@ inline std::vector<bool> double_sided(const Scene& scene) {
   return result;
 }
 
-// Along a path: no view of a wall's inner side, nothing within half a
-// metre, a way that is free from each frame to the next, and something below.
+// Along a path: no view of a wall's inner side, nothing within half a metre, a way that is free from each
+// frame to the next, and something below.
 inline void expect_free_camera(const Scene& scene, const RayCaster& rays, const CameraPath& path,
                                uint32_t frames, const Range& median) {
   std::vector<bool> both_sides = double_sided(scene);
