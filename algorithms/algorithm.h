@@ -74,7 +74,7 @@ struct AlgorithmInfo {
 
 // The lights of one frame, camera-relative (world axes), rounded to float once and the same for CPU and GPU.
 // Structure of arrays, so that bounds can be computed many at a time; all spans have the same length and 64
-// readable bytes of padding behind their last element.
+// readable bytes of padding after their last element.
 struct FrameLights {
   std::span<const float> x, y, z;  // m
   // m, > 0: of the ball around (x, y, z) that holds the light's whole volume, so that an algorithm that knows
@@ -114,8 +114,8 @@ class UploadMemory {
  public:
   virtual ~UploadMemory() = default;
   // At least `bytes` writable bytes, 64-byte aligned; contents undefined. Valid until the next prepare().
-  // Where the slot is cached(), mapping it again with fewer bytes keeps place and contents. Grows rarely and
-  // never shrinks. Throws SystemError, naming algorithm, slot and limit, when the device cannot hold it.
+  // Where the slot is cached(), mapping it again with fewer bytes keeps address and contents. Grows rarely
+  // and never shrinks. Throws SystemError, naming algorithm, slot and limit, when the device cannot hold it.
   virtual std::span<std::byte> map(uint32_t slot, size_t bytes) = 0;
   // The most bytes that one slot can hold.
   virtual size_t limit() const = 0;
@@ -148,10 +148,10 @@ struct ShadeShaders {
   Spirv forward, forward_counting;
 };
 
-// A class for each tile of a picture: `of_tile`[row * columns + column], at most `most`. No tiles: all are of
-// class `most`.
+// A class for each tile of a picture: `of_tile`[row * columns + column], at most `max`. No tiles: all are of
+// class `max`.
 struct TileClasses {
-  uint32_t most = 0;
+  uint32_t max = 0;
   uint32_t tile = 0, columns = 0;  // px, tiles
   std::span<const uint8_t> of_tile;
 };
@@ -192,7 +192,7 @@ class Algorithm {
   // time also where it is not needed.
   virtual TileClasses tile_classes() const { return {}; }
   // Further constants of a class's program. A higher class can do what a lower one can; the highest is
-  // `TileClasses::most`.
+  // `TileClasses::max`.
   virtual gpu::Constants class_constants(uint32_t /*tile_class*/) const { return {}; }
 
   // The pixels of a subgroup walk their cells' lights together, where the device can (shade.comp:
@@ -222,9 +222,9 @@ struct AlgorithmEntry {
   std::function<double(const Parameters&, uint32_t width, uint32_t height, uint32_t lights)> further_seconds;
 };
 
-// All algorithms, in the order in which tables show them. The only place that names them is registry.cpp.
+// All algorithms, in the order in which tables show them. Only registry.cpp names them.
 const std::vector<AlgorithmEntry>& algorithm_registry();
-// Throws UsageError with the nearest known name; `place` begins the message.
-const AlgorithmEntry& find_algorithm(const std::string& name, const std::string& place);
+// Throws UsageError with the nearest known name; `where` begins the message.
+const AlgorithmEntry& find_algorithm(const std::string& name, const std::string& where);
 
 }  // namespace ml

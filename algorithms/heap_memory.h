@@ -29,7 +29,7 @@ class HeapMemory final : public UploadMemory {
     return number < slots_.size() ? std::span(slots_[number].bytes).first(slots_[number].used)
                                   : std::span<const std::byte>();
   }
-  // All slots, one behind the other.
+  // All slots, one after the other.
   std::vector<std::byte> all() const {
     std::vector<std::byte> bytes;
     for (const Slot& one : slots_)

@@ -100,13 +100,13 @@ Parameters::Parameters(const std::vector<ParameterInfo>& infos) {
 }
 
 void Parameters::set(const std::vector<ParameterInfo>& infos, const std::string& name,
-                     const ParameterValue& value, const std::string& place) {
+                     const ParameterValue& value, const std::string& where) {
   auto info = std::find_if(infos.begin(), infos.end(),
                            [&](const ParameterInfo& known) { return known.name == name; });
   if (info == infos.end()) {
     std::vector<std::string> known;
     for (const ParameterInfo& each : infos) known.push_back(each.name);
-    throw UsageError(place + ": unknown parameter '" + name + "'" +
+    throw UsageError(where + ": unknown parameter '" + name + "'" +
                      (known.empty() ? ", there are none" : suggestion(name, known)));
   }
   ParameterValue typed = value;
@@ -120,7 +120,7 @@ void Parameters::set(const std::vector<ParameterInfo>& infos, const std::string&
       if (std::string best = nearest_name(*word, info->choices); !best.empty())
         near = ", did you mean '" + best + "'?";
     }
-    throw UsageError(place + ": expected " + expectation(*info) + ", found " + shown(value) + near);
+    throw UsageError(where + ": expected " + expectation(*info) + ", found " + shown(value) + near);
   }
   values_[name] = typed;
 }

@@ -39,7 +39,7 @@ class Parameters {
   // Checks and sets one value; an integer is accepted for a real. Throws UsageError "PLACE: ..." that says
   // what was expected.
   void set(const std::vector<ParameterInfo>& infos, const std::string& name, const ParameterValue& value,
-           const std::string& place);
+           const std::string& where);
 
   int64_t integer(const std::string& name) const { return std::get<int64_t>(values_.at(name)); }
   double real(const std::string& name) const { return std::get<double>(values_.at(name)); }

@@ -21,13 +21,13 @@ const std::vector<AlgorithmEntry>& algorithm_registry() {
   return entries;
 }
 
-const AlgorithmEntry& find_algorithm(const std::string& name, const std::string& place) {
+const AlgorithmEntry& find_algorithm(const std::string& name, const std::string& where) {
   std::vector<std::string> known;
   for (const AlgorithmEntry& entry : algorithm_registry()) {
     if (entry.info.name == name) return entry;
     known.push_back(entry.info.name);
   }
-  throw UsageError(place + ": unknown algorithm '" + name + "'" + suggestion(name, known));
+  throw UsageError(where + ": unknown algorithm '" + name + "'" + suggestion(name, known));
 }
 
 }  // namespace ml

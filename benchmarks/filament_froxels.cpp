@@ -237,7 +237,7 @@ void add(const std::string& name, void (*body)(benchmark::State&, int, int), int
 int main(int argc, char** argv) {
   benchmark::AddCustomContext("build_type", ML_BUILD_TYPE);
   benchmark::AddCustomContext("vector_target", simd::target_name());
-  // What is asked for on the command line comes behind, and wins.
+  // What is asked for on the command line comes after, and wins.
   std::vector<std::string> words{argv[0], "--benchmark_enable_random_interleaving=true",
                                  "--benchmark_repetitions=15", "--benchmark_min_time=0.02",
                                  "--benchmark_report_aggregates_only=true"};

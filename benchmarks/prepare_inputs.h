@@ -65,7 +65,7 @@ inline Scene procedural(const char* name) {
   return load_scene(spec);
 }
 
-// The level's own lights (fewer are larger, so that each point has as many), from one place of its path.
+// The level's own lights (fewer are larger, so that each point has as many), from one point of its path.
 inline std::unique_ptr<Input> level_input(const Scene& scene, uint32_t count, unsigned threads,
                                           uint32_t frame) {
   LightSpec spec;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kFarthest = 1e6;   // m, any coordinate or length
 constexpr double kLongest = 86400;  // s
-constexpr size_t kMostPaths = 100, kMostKeys = 10000;
+constexpr size_t kMaxPaths = 100, kMaxKeys = 10000;
 
 std::string file_of(const std::string& scene) {
   return "scenes/" + scene + "/scene.json";
@@ -52,9 +52,9 @@ PathPoint read_point(const Node& node) {
   if (!node.json().is_object()) node.expected("[x, y, z] or an object with x, z and above_ground");
   Members members(node);
   PathPoint point{glm::dvec3(0), true};
-  point.place.x = coordinate(members.get("x"));
-  point.place.z = coordinate(members.get("z"));
-  point.place.y = coordinate(members.get("above_ground"));
+  point.coordinates.x = coordinate(members.get("x"));
+  point.coordinates.z = coordinate(members.get("z"));
+  point.coordinates.y = coordinate(members.get("above_ground"));
   members.expect_no_others();
   return point;
 }
@@ -64,7 +64,7 @@ PathDescription read_path(const Node& node) {
   PathDescription path;
   path.name = members.get("name").text(1, 100);
   const Node keys = members.get("keys");
-  const size_t count = keys.list(1, kMostKeys);
+  const size_t count = keys.list(1, kMaxKeys);
   for (size_t i = 0; i < count; ++i) {
     const Node item = keys.item(i);
     Members key(item);
@@ -81,7 +81,7 @@ PathDescription read_path(const Node& node) {
 
 std::vector<PathDescription> read_paths(const Node& node) {
   std::vector<PathDescription> paths;
-  const size_t count = node.list(1, kMostPaths);
+  const size_t count = node.list(1, kMaxPaths);
   for (size_t i = 0; i < count; ++i) {
     PathDescription path = read_path(node.item(i));
     const Node name = node.item(i).member("name");
@@ -115,10 +115,12 @@ SceneDescription read_description(const std::string& name, std::string_view json
 
 std::vector<CameraPath> camera_paths(const SceneDescription& description, const GroundHeight& ground) {
   auto placed = [&](const PathPoint& point) {
-    if (!point.above_ground) return point.place;
+    if (!point.above_ground) return point.coordinates;
     if (!ground)
       throw std::logic_error(file_of(description.name) + ": a path is above the ground, and there is none");
-    return glm::dvec3(point.place.x, ground(point.place.x, point.place.z) + point.place.y, point.place.z);
+    return glm::dvec3(point.coordinates.x,
+                      ground(point.coordinates.x, point.coordinates.z) + point.coordinates.y,
+                      point.coordinates.z);
   };
   std::vector<CameraPath> paths;
   for (const PathDescription& described : description.paths) {

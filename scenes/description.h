@@ -15,7 +15,7 @@ namespace ml {
 
 // A point of a camera path: [x, y, z], or {"x", "z", "above_ground"}.
 struct PathPoint {
-  glm::dvec3 place{0};        // m
+  glm::dvec3 coordinates{0};  // m
   bool above_ground = false;  // y counts from the ground below, which may differ by the seed
 };
 

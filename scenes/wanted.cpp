@@ -10,8 +10,8 @@ namespace ml {
 namespace {
 
 constexpr double kLargest = 1e9;
-constexpr uint32_t kMostSeeds = 100, kMostLights = 1048576;
-constexpr size_t kMostItems = 1000, kMostLetters = 100;
+constexpr uint32_t kMaxSeeds = 100, kMaxLights = 1048576;
+constexpr size_t kMaxItems = 1000, kMaxLetters = 100;
 
 Range read_range(const Node& node) {
   node.list(2, 2);
@@ -45,8 +45,8 @@ uint32_t read_hash(const Node& node) {
 WantedView read_view(const Node& node) {
   Members members(node);
   WantedView view;
-  view.name = members.get("name").text(1, kMostLetters);
-  view.path = members.get("path").text(1, kMostLetters);
+  view.name = members.get("name").text(1, kMaxLetters);
+  view.path = members.get("path").text(1, kMaxLetters);
   view.time = members.get("time").real(0, kLargest);
   view.depth_p95 = read_range(members.get("depth_p95"));
   members.expect_no_others();
@@ -56,7 +56,7 @@ WantedView read_view(const Node& node) {
 WantedFrames read_frames(const Node& node) {
   Members members(node);
   WantedFrames frames;
-  frames.path = members.get("path").text(1, kMostLetters);
+  frames.path = members.get("path").text(1, kMaxLetters);
   frames.depth_p95 = read_range(members.get("depth_p95"));
   frames.share = read_range(members.get("share"));
   members.expect_no_others();
@@ -66,12 +66,12 @@ WantedFrames read_frames(const Node& node) {
 WantedLights read_lights(const Node& node) {
   Members members(node);
   WantedLights lights;
-  lights.count = members.get("count").unsigned_integer(1, kMostLights);
+  lights.count = members.get("count").unsigned_integer(1, kMaxLights);
   if (auto placement = members.find("placement"))
     lights.placement = static_cast<Placement>(placement->choice(placement_names()));
-  if (auto seeds = members.find("seeds")) lights.seeds = seeds->unsigned_integer(1, kMostSeeds);
+  if (auto seeds = members.find("seeds")) lights.seeds = seeds->unsigned_integer(1, kMaxSeeds);
   read_range(members, "mean", lights.mean);
-  read_range(members, "most", lights.most);
+  read_range(members, "most", lights.max);
   read_range(members, "base_size", lights.base_size);
   read_range(members, "radius", lights.radius);
   members.expect_no_others();
@@ -83,7 +83,7 @@ void read_list(Members& members, const std::string& key, Item (*read)(const Node
                std::vector<Item>& items) {
   auto node = members.find(key);
   if (!node) return;
-  const size_t count = node->list(1, kMostItems);
+  const size_t count = node->list(1, kMaxItems);
   for (size_t i = 0; i < count; ++i) items.push_back(read(node->item(i)));
 }
 

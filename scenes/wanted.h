@@ -40,7 +40,7 @@ struct WantedLights {
   uint32_t count = 0;
   std::optional<Placement> placement;  // none: the scene's own
   uint32_t seeds = 1;                  // of the lights: 1, 2, ...; the mean is over all of them
-  Range mean, most;
+  Range mean, max;
   Range base_size;  // m, LightSet::base_size()
   Range radius;     // m, of every light
 };

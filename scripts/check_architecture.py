@@ -45,10 +45,10 @@ FOLDERS = {"algorithms": ("README.md", "light_cursor.glsl"), "scenes": ("README.
 SHARED = {"froxels", "trees"}  # folders in algorithms/ that several algorithms are made of; trees stand on froxels
 OUTSIDE = {"tests", "benchmarks", "examples"}  # may use every room but cli
 
-MOST_LINES = {".cpp": 450, ".h": 450, ".glsl": 250, ".comp": 250, ".vert": 250, ".frag": 250}
-MOST_COLUMNS = 120  # of GLSL
+MAX_LINES = {".cpp": 450, ".h": 450, ".glsl": 250, ".comp": 250, ".vert": 250, ".frag": 250}
+MAX_COLUMNS = 120  # of GLSL
 GLSL = {".glsl", ".comp", ".vert", ".frag"}
-TEXT = set(MOST_LINES) | {".md", ".py", ".sh", ".json", ".txt", ".cmake", ".yml", ".mjs", ""}
+TEXT = set(MAX_LINES) | {".md", ".py", ".sh", ".json", ".txt", ".cmake", ".yml", ".mjs", ""}
 SKIPPED = {".git", "build", "out", "node_modules", ".cache", "__pycache__"}
 
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -102,17 +102,17 @@ def check_file(path, text):
     suffix = pathlib.PurePosixPath(path).suffix
     room = room_of(path)
     knows_vulkan = room == "gpu" or path.startswith("tests/layer/")
-    code = suffix in MOST_LINES
+    code = suffix in MAX_LINES
     lines = text.splitlines()
-    if code and len(lines) > MOST_LINES[suffix]:
-        yield len(lines), f"{len(lines)} lines; at most {MOST_LINES[suffix]}: it is two things"
+    if code and len(lines) > MAX_LINES[suffix]:
+        yield len(lines), f"{len(lines)} lines; at most {MAX_LINES[suffix]}: it is two things"
     for number, line in enumerate(lines, 1):
         if LEFT_TO_DO.search(line):
             yield number, "a note of work left to do; do it or open an issue"
         if MACHINE_PATH.search(line):
             yield number, "a path of somebody's machine"
-        if suffix in GLSL and len(line) > MOST_COLUMNS:
-            yield number, f"{len(line)} columns; at most {MOST_COLUMNS}"
+        if suffix in GLSL and len(line) > MAX_COLUMNS:
+            yield number, f"{len(line)} columns; at most {MAX_COLUMNS}"
         if not code or room is None:
             continue
         include = INCLUDE.match(line)
@@ -153,7 +153,7 @@ def check_tree(root):
         try:
             text = path.read_text(encoding="utf-8")
         except UnicodeDecodeError:
-            if path.suffix in MOST_LINES:
+            if path.suffix in MAX_LINES:
                 faults.append((relative.as_posix(), 1, "not UTF-8"))
             continue
         faults += [(relative.as_posix(), line, what) for line, what in check_file(relative.as_posix(), text)]

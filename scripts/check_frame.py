@@ -33,7 +33,7 @@ class BadFile(Exception):
 
 
 def undo_zip(packed, size):
-    """OpenEXR's ZIP: zlib over bytes that were split into even and odd places and replaced by differences."""
+    """OpenEXR's ZIP: zlib over bytes that were split into even and odd offsets and replaced by differences."""
     if len(packed) == size:
         return packed
     deltas = zlib.decompress(packed)
@@ -82,14 +82,14 @@ def parse_exr(data):
     compression = attributes["compression"][0]
     if compression not in (0, 2, 3):
         raise BadFile("its compression is not none, ZIPS or ZIP")
-    names, place = [], 0
-    while attributes["channels"][place]:
-        end = attributes["channels"].index(0, place)
+    names, begin = [], 0
+    while attributes["channels"][begin]:
+        end = attributes["channels"].index(0, begin)
         kind, _, x_step, y_step = struct.unpack_from("<iIii", attributes["channels"], end + 1)
-        names.append(attributes["channels"][place:end].decode())
+        names.append(attributes["channels"][begin:end].decode())
         if kind != 2 or x_step != 1 or y_step != 1:
             raise BadFile(f"channel {names[-1]} is not 32-bit float at full size")
-        place = end + 17
+        begin = end + 17
     pictures = {name: array.array("f", bytes(4 * width * height)) for name in names}
     lines = 16 if compression == 3 else 1
     for offset in struct.unpack_from(f"<{-(-height // lines)}Q", data, at):

@@ -24,7 +24,7 @@
 #define BIND_METALLIC_ROUGHNESS 26  // textures of the mesh that is drawn
 #define BIND_NORMAL_MAP 27
 #define BIND_EMISSION_MAP 28
-// Added to a buffer's number: the same buffer as texels of four words, bound by its name with "Quads" behind.
+// Added to a buffer's number: the same buffer as texels of four words, bound by its name with "Quads" appended.
 #define BIND_QUADS 32
 #define BIND_DIFFUSE 16  // of a pass that has no algorithm in it
 

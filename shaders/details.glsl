@@ -13,9 +13,9 @@ layout(scalar, binding = BIND_DETAILS) readonly buffer Details { uint details[];
 
 // The two words of a detail; `missing` where the level has none of that kind.
 uvec2 detail_words(uint kind, uvec2 missing) {
-  const uint place = bitfieldExtract(material.details, int(kind), 4);
-  if (place == 0u) return missing;
-  const uint word = bitfieldExtract(material.details, 0, 4) * uint(gl_VertexIndex) + place - 1u;
+  const uint from_one = bitfieldExtract(material.details, int(kind), 4);
+  if (from_one == 0u) return missing;
+  const uint word = bitfieldExtract(material.details, 0, 4) * uint(gl_VertexIndex) + from_one - 1u;
   return uvec2(details[word], details[word + 1u]);
 }
 

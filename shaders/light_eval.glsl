@@ -85,8 +85,8 @@ void to_segment(LightExtra extra, inout REAL dx, inout REAL dy, inout REAL dz) {
 // The part of a box's window that belongs to one axis; false outside. An extent of 0 gives an infinite or no number:
 // outside.
 bool in_slab(REAL ax, REAL ay, REAL az, REAL half_extent, REAL dx, REAL dy, REAL dz, inout REAL window) {
-  precise REAL place = dx * ax + dy * ay + dz * az;
-  precise REAL ratio = place * place / (half_extent * half_extent);
+  precise REAL coordinate = dx * ax + dy * ay + dz * az;
+  precise REAL ratio = coordinate * coordinate / (half_extent * half_extent);
   precise REAL product = window * (REAL(1) - ratio * ratio);
   window = product;
   return ratio < REAL(1);

@@ -3,7 +3,7 @@
 // LONG_LISTS is on; then they take eight steps an iteration.
 //
 // The same driver is why loops leave by `break`: with a condition at their end it lost lights, as if pixels that had
-// left a loop took what others found in later turns.
+// left a loop took what others found in later iterations.
 #ifndef ML_LOOP_ITERATIONS_GLSL
 #define ML_LOOP_ITERATIONS_GLSL
 #include "shaders/constants.glsl"

@@ -1,4 +1,4 @@
-// For cursors whose cell is one list, places [next, end): the whole list is one run (CURSOR_RUNS in shade.comp). Comes
+// For cursors whose cell is one list, entries [next, end): the whole list is one run (CURSOR_RUNS in shade.comp). Comes
 // after struct LightCursor with these members.
 #ifndef ML_ONE_RUN_GLSL
 #define ML_ONE_RUN_GLSL

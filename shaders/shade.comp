@@ -16,7 +16,7 @@
 //     uint light_next_runs(inout LightCursor, bool here);   those that follow
 //     bool light_run(LightCursor, uint bit, bool here, out uint first, out uint count);
 //       a run, and whether the pixel wants it
-//     uint run_light(uint place);                           a light of a run
+//     uint run_light(uint entry);                           a light of a run
 //   CURSOR_COUNTERS      in the counting variant, with store_counters(ivec2 pixel), which writes what the algorithm
 //                        counts beside the counters below;
 //   CURSOR_SHARED        with poison_shared(), which writes poison_word all over the memory that the cursor shares;
@@ -137,7 +137,7 @@ void main() {
   }
 #endif
   const uint block = blocks[first_block + gl_WorkGroupID.x];
-  const uvec2 pixel = uvec2(block & 0xffffu, block >> 16) * 8u + place_in_block(gl_LocalInvocationIndex);
+  const uvec2 pixel = uvec2(block & 0xffffu, block >> 16) * 8u + pixel_in_block(gl_LocalInvocationIndex);
   const bool inside = all(lessThan(pixel, view.resolution));
   VEC3 sum = VEC3(0);
   if (WALK_RANGES && first_light != 0u && inside) load_sums(pixel, sum);

@@ -91,8 +91,8 @@ void shade_runs(SurfacePoint point, LightCursor cursor, uint runs, bool here, in
 }
 
 // The pixels that lie in one cell walk it together, one cell after the other. `lit`: false for lanes that only help.
-// Loops test at their end: where a processor runs its lanes in step, a turn that finds nothing costs as much as any
-// other.
+// Loops test at their end: where a processor runs its lanes in step, an iteration that finds nothing costs as much as
+// any other.
 void shade_cells(SurfacePoint point, bool lit, inout VEC3 sum) {
   const uint none = 0xffffffffu;
   uint left = lit ? light_cell(point) : none;

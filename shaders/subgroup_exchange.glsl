@@ -1,4 +1,4 @@
-// Votes and minima across a subgroup all of whose lanes take part: never behind && or || or ?: whose first part differs
+// Votes and minima across a subgroup all of whose lanes take part: never after && or || or ?: whose first part differs
 // from lane to lane, for what follows is then asked of some lanes only, and what the others hold is missed.
 //
 // Small subgroups exchange values, log2 of their size times: Mesa's software driver (8 lanes) makes a shuffle one

@@ -21,9 +21,9 @@ LightCursor cell_begin(uint froxel, float depth, bool counted) {
 
 LightCursor light_begin(SurfacePoint point) { return cell_begin(light_cell(point), point.depth, true); }
 
-uint run_light(uint place) { return DUPLICATED ? place : index_of(froxel_indices[index_word(place)], place); }
+uint run_light(uint entry) { return DUPLICATED ? entry : index_of(froxel_indices[index_word(entry)], entry); }
 
-// `light` is the light's index, or with duplicated data the place in the list itself.
+// `light` is the light's index, or with duplicated data that of its entry in the list.
 bool light_next(inout LightCursor cursor, out uint light, out float weight) {
   weight = 1.0;
   if (cursor.next >= cursor.end) return false;

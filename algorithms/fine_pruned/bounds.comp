@@ -18,7 +18,7 @@ layout(scalar, binding = 17) writeonly buffer Bounds { ScreenBounds bounds[]; };
 const float none = 3e38;
 const bool any_hulls = EFFECT_SPOTS || EFFECT_CAPSULES || EFFECT_WEDGES || EFFECT_BOXES;
 const float widen_pixels = 1.0 / 256.0;  // as the froxel bounds
-const uint max_corners = 16u;  // of a clipped face: 4 and one for each plane, and room for what rounding bends
+const uint max_corners = 16u;  // of a clipped face: 4 and one for each plane, and some for what rounding bends
 
 // Window coordinates (slopes or metres) and depths.
 struct WindowBounds {
@@ -43,10 +43,10 @@ vec4 view_plane(uint plane) {
 
 void add_point(vec3 p, float error, inout WindowBounds window) {
   const float scale = view.orthographic != 0u ? 1.0 : 1.0 / max(p.z, 0.5 * view.near);
-  const vec2 place = p.xy * scale;
-  const float around = error * scale * (1.0 + max(abs(place.x), abs(place.y)));
-  window.low = min(window.low, vec3(place - around, p.z - error));
-  window.high = max(window.high, vec3(place + around, p.z + error));
+  const vec2 projected = p.xy * scale;
+  const float around = error * scale * (1.0 + max(abs(projected.x), abs(projected.y)));
+  window.low = min(window.low, vec3(projected - around, p.z - error));
+  window.high = max(window.high, vec3(projected + around, p.z + error));
 }
 
 // The planes that a point lies outside of, as bits.
@@ -99,9 +99,9 @@ WindowBounds hull_bounds(LightHull hull) {
   add_face(hull, uvec4(1, 3, 7, 5), window);
   const float z = near_depth(), scale = view.orthographic != 0u ? 1.0 : z;
   for (uint i = 0u; i < 4u; ++i) {
-    const vec2 place =
+    const vec2 window_corner =
         vec2((i & 1u) != 0u ? view.right_edge : view.left_edge, (i & 2u) != 0u ? view.top_edge : view.bottom_edge);
-    const vec3 corner = vec3(place * scale, z);
+    const vec3 corner = vec3(window_corner * scale, z);
     if (hull_holds(hull, corner)) add_point(corner, 0.0, window);
   }
   return window;
@@ -152,9 +152,9 @@ WindowBounds ball_bounds(LightCore light) {
 }
 
 void main() {
-  const uint place = gl_GlobalInvocationID.x;
-  if (place >= visible.count) return;
-  const LightCore light = light_at(visible_lights[place]);
+  const uint visible_index = gl_GlobalInvocationID.x;
+  if (visible_index >= visible.count) return;
+  const LightCore light = light_at(visible_lights[visible_index]);
   const WindowBounds ball = ball_bounds(light);
   vec3 low = ball.low, high = ball.high;
   // The box around an omni light has the bounds of its ball inside its own: all of the hull would be cut off.
@@ -173,5 +173,5 @@ void main() {
   if (all(lessThanEqual(first, last)))
     result = ScreenBounds(uint(first.x) | uint(last.x) << 16, uint(first.y) | uint(last.y) << 16,
                           low.z * (low.z > 0.0 ? 0.99999 : 1.00001), high.z * (high.z > 0.0 ? 1.00001 : 0.99999));
-  bounds[place] = result;
+  bounds[visible_index] = result;
 }

@@ -41,8 +41,8 @@ class FinePruned final : public Algorithm {
     auto span = spans.span("upload");
     const gpu_data::VisibleHeader& header = lights_.header();
     entries_ = settings_.packed ? 0 : lights_.max_entries_of_tiles(frame);
-    longest_walk_ = settings_.packed ? 2 * ML_PACKED_LIGHTS : lights_.most_in_a_tile();
-    // Where the device may have no room for all lists some tiles walk all lights in view.
+    longest_walk_ = settings_.packed ? 2 * ML_PACKED_LIGHTS : lights_.max_in_a_tile();
+    // Where the device may have no space for all lists, some tiles walk all lights in view.
     if (entries_ > memory.limit() / 8) longest_walk_ = header.count;
     const size_t index_bytes = lights_.lights().size_bytes();
     std::span<std::byte> to = memory.map(visible_slot, sizeof header + index_bytes);

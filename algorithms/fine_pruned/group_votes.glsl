@@ -1,5 +1,5 @@
 // What the threads of a workgroup find together, in shared memory: the bounds of their depths, and bits. A subgroup
-// makes one of its values first, so that one of its threads changes the shared word, and not each in its turn.
+// makes one of its values first, so that one of its threads changes the shared word, and not each of them.
 #ifndef ML_FINE_PRUNED_GROUP_VOTES_GLSL
 #define ML_FINE_PRUNED_GROUP_VOTES_GLSL
 #include "shaders/subgroup_exchange.glsl"

@@ -1,5 +1,5 @@
-// Lights tested against bounds 512 at a time by a workgroup of 64 threads, and their places among those that passed.
-// Who includes this says what the candidates are: `uint candidate(uint place)`, a visible index.
+// Lights tested against bounds 512 at a time by a workgroup of 64 threads, and their ranks among those that passed.
+// Who includes this says what the candidates are: `uint candidate(uint index)`, a visible index.
 #ifndef ML_FINE_PRUNED_LIGHT_BATCHES_GLSL
 #define ML_FINE_PRUNED_LIGHT_BATCHES_GLSL
 #include "group_votes.glsl"
@@ -25,7 +25,7 @@ ScreenBounds bounds_of(uint light) {
 const uint max_rounds = 8u;  // lights that a thread tests in one batch
 const uint batch = max_rounds * ML_PRUNED_GROUP, batch_words = batch / 32u;
 
-// Which lights of a batch passed; three take turns, so that a barrier a batch is enough.
+// Which lights of a batch passed. There are three slots, used one after the other, so that a barrier a batch is enough.
 shared uint passed[3u * batch_words];
 
 // Before anything that is shared is written; the pass then does the same with what it shares itself, and a barrier
@@ -39,23 +39,23 @@ void poison_batches() {
 void clear_batches() {
   const uint thread = gl_LocalInvocationIndex;
   if (thread < batch_words)
-    for (uint turn = 0u; turn < 3u; ++turn) passed[turn * batch_words + thread] = 0u;
+    for (uint slot = 0u; slot < 3u; ++slot) passed[slot * batch_words + thread] = 0u;
 }
 
-// After a batch's barrier: clears the field that was last read before it and is next written after the next one's.
-// Returns the next turn.
-uint next_turn(uint turn) {
-  const uint cleared = turn == 0u ? 2u : turn - 1u;
+// After a batch's barrier: clears the slot that was last read before it, and is next written after the barrier of the
+// next batch. Returns the next batch's slot.
+uint next_slot(uint slot) {
+  const uint cleared = slot == 0u ? 2u : slot - 1u;
   if (gl_LocalInvocationIndex < batch_words) passed[cleared * batch_words + gl_LocalInvocationIndex] = 0u;
-  return turn == 2u ? 0u : turn + 1u;
+  return slot == 2u ? 0u : slot + 1u;
 }
 
 // Closed ranges, as first | last << 16.
 bool ranges_meet(uint a, uint b) { return (a & 0xffffu) <= b >> 16 && (b & 0xffffu) <= a >> 16; }
 
-bool overlaps(ScreenBounds light, ScreenBounds place) {
-  return ranges_meet(light.x, place.x) && ranges_meet(light.y, place.y) &&
-         (!TILE_DEPTHS || light.far >= place.near && light.near <= place.far);
+bool overlaps(ScreenBounds light, ScreenBounds area) {
+  return ranges_meet(light.x, area.x) && ranges_meet(light.y, area.y) &&
+         (!TILE_DEPTHS || light.far >= area.near && light.near <= area.far);
 }
 
 // Rounds of the batch that begins at candidate `first` in which there are candidates before `count`.
@@ -64,11 +64,11 @@ uint rounds_of(uint first, uint count) {
 }
 
 // Those of the batch of candidates from `first` on, and before `count`, that overlap: as bits of passed[field ...].
-void test_batch(uint first, uint count, uint field, ScreenBounds place) {
+void test_batch(uint first, uint count, uint field, ScreenBounds area) {
   const uint thread = gl_LocalInvocationIndex, rounds = rounds_of(first, count);
   for (uint round = 0u; round < rounds; ++round) {
     const uint at = first + round * ML_PRUNED_GROUP + thread;
-    const uint bit = at < count && overlaps(bounds_of(candidate(at)), place) ? 1u << (thread & 31u) : 0u;
+    const uint bit = at < count && overlaps(bounds_of(candidate(at)), area) ? 1u << (thread & 31u) : 0u;
     SET_BITS(passed[field + round * 2u], (thread < 32u ? bit : 0u))
     SET_BITS(passed[field + round * 2u + 1u], (thread < 32u ? 0u : bit))
   }
@@ -76,11 +76,11 @@ void test_batch(uint first, uint count, uint field, ScreenBounds place) {
 
 uvec2 passed_in(uint field, uint round) { return uvec2(passed[field + round * 2u], passed[field + round * 2u + 1u]); }
 
-uint bits_before(uvec2 mask, uint place) {
-  return place < 32u ? uint(bitCount(mask.x & ((1u << place) - 1u)))
-                     : uint(bitCount(mask.x) + bitCount(mask.y & ((1u << (place - 32u)) - 1u)));
+uint bits_before(uvec2 mask, uint bit) {
+  return bit < 32u ? uint(bitCount(mask.x & ((1u << bit) - 1u)))
+                   : uint(bitCount(mask.x) + bitCount(mask.y & ((1u << (bit - 32u)) - 1u)));
 }
 
-bool has_bit(uvec2 mask, uint place) { return ((place < 32u ? mask.x >> place : mask.y >> (place - 32u)) & 1u) != 0u; }
+bool has_bit(uvec2 mask, uint bit) { return ((bit < 32u ? mask.x >> bit : mask.y >> (bit - 32u)) & 1u) != 0u; }
 
 #endif

@@ -1,4 +1,4 @@
-// The lists of the pixel's tile: of direct lights, then of probe lights. Without limits they stand one behind the other
+// The lists of the pixel's tile: of direct lights, then of probe lights. Without limits they stand one after the other
 // and are walked as one.
 #include "pruned_lists.h"
 
@@ -11,7 +11,7 @@ layout(scalar, binding = 17) readonly buffer TileLists { uvec2 tile_lists[]; };
 layout(scalar, binding = 18) readonly buffer ListLights { uint list_lights[]; };
 layout(scalar, binding = 19) readonly buffer PackedLists { uint packed_lists[]; };
 
-// Places in the list buffer; in the visible lights from ML_PRUNED_ALL on; packed: 24 for each list of a tile.
+// Indices into the list buffer; in the visible lights from ML_PRUNED_ALL on; packed: 24 for each list of a tile.
 struct LightCursor {
   uint next, end;
   uint probe_next, probe_end;  // what is walked then
@@ -59,9 +59,9 @@ LightCursor cell_begin(uint tile, float depth, bool counted) {
 
 LightCursor light_begin(SurfacePoint point) { return cell_begin(light_cell(point), point.depth, true); }
 
-uint run_light(uint place) {
-  if (PACKED) return visible_lights[packed_index(packed_lists[place / 3u], place % 3u)];
-  return place >= ML_PRUNED_ALL ? visible_lights[place - ML_PRUNED_ALL] : list_lights[place];
+uint run_light(uint entry) {
+  if (PACKED) return visible_lights[packed_index(packed_lists[entry / 3u], entry % 3u)];
+  return entry >= ML_PRUNED_ALL ? visible_lights[entry - ML_PRUNED_ALL] : list_lights[entry];
 }
 
 bool light_next(inout LightCursor cursor, out uint light, out float weight) {

@@ -87,9 +87,9 @@ bool in_cone(FourPoints points, LightCore light) {
 }
 
 bvec4 between(FourWays ways, vec3 axis, float half_extent) {
-  const vec4 place = ways.x * axis.x + ways.y * axis.y + ways.z * axis.z;
+  const vec4 coordinate = ways.x * axis.x + ways.y * axis.y + ways.z * axis.z;
   const vec4 rounding = 1e-6 * (abs(ways.x) + abs(ways.y) + abs(ways.z));
-  return lessThan(abs(place), half_extent * 1.00001 + rounding);
+  return lessThan(abs(coordinate), half_extent * 1.00001 + rounding);
 }
 
 bool in_box_volume(FourPoints points, LightCore light) {

@@ -14,7 +14,7 @@ namespace {
 // Values of MODE in tiles.comp.
 enum Mode : uint32_t { mode_count, mode_lists, mode_packed };
 
-// Of all regions' lists: each has room for all lights in view.
+// Of all regions' lists: each has space for all lights in view.
 constexpr uint64_t max_region_bytes = uint64_t{32} << 20;
 
 gpu::Constants with(gpu::Constants shared, const gpu::Constants& own) {
@@ -61,10 +61,10 @@ ListPasses::TilePrograms& ListPasses::programs(bool regions) {
 }
 
 void ListPasses::lay_out_regions(uint32_t columns, uint32_t rows, uint32_t visible) {
-  const uint64_t most = std::min<uint64_t>(device_.limits().storage_buffer_range, max_region_bytes);
+  const uint64_t max_bytes = std::min<uint64_t>(device_.limits().storage_buffer_range, max_region_bytes);
   region_shift_ = 3;
   const auto along = [this](uint32_t tiles) { return ((tiles - 1) >> region_shift_) + 1; };
-  while (uint64_t{along(columns)} * along(rows) * (visible + 1) * 4 > most &&
+  while (uint64_t{along(columns)} * along(rows) * (visible + 1) * 4 > max_bytes &&
          along(columns) * along(rows) > 1)
     ++region_shift_;
   region_columns_ = along(columns);
@@ -93,8 +93,8 @@ void ListPasses::record(gpu::Commands& commands, const gpu_data::ViewData& view,
     reserve(packed_lists_, uint64_t{tiles_} * settings_.packed_words() * 4);
   } else {
     reserve(tile_lists_, uint64_t{tiles_} * 8);
-    // Some room for lights that the device's own rounding puts into one tile more. A tile for which there is
-    // none in the end walks all visible lights.
+    // Some space more, for lights that the device's own rounding puts into one tile more. A tile for which
+    // there is none in the end walks all visible lights.
     const uint64_t limit = std::min<uint64_t>(device_.limits().storage_buffer_range / 4, ML_PRUNED_ALL - 1);
     reserve(list_lights_, std::min(entries + entries / 4 + 1024, limit) * 4);
   }

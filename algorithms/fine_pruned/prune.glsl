@@ -20,7 +20,7 @@ uint lights_before(uint begin, uint count, uint value) {
   return at;
 }
 
-// Place in the chunk at which its probe lights begin.
+// Index in the chunk of its first probe light.
 uint probes_from(uint begin, uint count) {
   return EFFECT_PROBES ? lights_before(begin, count, visible.first_probe) : count;
 }
@@ -71,8 +71,8 @@ void test_of_lane(LightCore own, LightExtra own_extra, uint lane, uint lanes, ui
 }
 
 // For small subgroups, each lane of which fetches a light and hands it to the others; all of them stay together. One
-// loop for all types: where a loop that has nothing to do costs a turn (Mesa's software driver), three are more than
-// one that tests for each type.
+// loop for all types: where a loop that has nothing to do costs an iteration (Mesa's software driver), three are more
+// than one that tests for each type.
 uvec2 prune_together(uint begin, uint count) {
   uvec2 mask = uvec2(0u);
   if (!subgroup_any(any(points.lit))) return mask;

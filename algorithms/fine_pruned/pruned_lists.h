@@ -23,9 +23,9 @@ ML_NAMESPACE_BEGIN
 #define ML_BOUNDS_BALL 2u  // the balls alone: around its position, and the smaller one around a cone
 
 // In front of the visible lights' indices, which are sorted: direct lights before probe lights, and each by
-// type: balls (omni, capsule), cones (spot, wedge), boxes. A light's place in that order is its visible
+// type: balls (omni, capsule), cones (spot, wedge), boxes. A light's rank in that order is its visible
 // index. Tiles' lists keep the order, so a list's direct lights and its probe lights are two lists, one
-// behind the other.
+// after the other.
 struct VisibleHeader {
   uint count;
   uint first_cone,
@@ -48,12 +48,12 @@ struct PrunedPush {
   uint tiles;     // all of them
   uint capacity;  // lights that the list buffer holds
   // Regions of 2^region_shift tiles squared: how many stand side by side, and words from one's list to the
-  // next: the number of its lights, and room for all.
+  // next: the number of its lights, and space for all.
   uint region_shift, region_columns, region_words;
 };
 ML_SIZE(PrunedPush, 24);
 
-// First light of a list that stands in the visible lights themselves: the list buffer had no room for the
+// First light of a list that stands in the visible lights themselves: the list buffer had no space for the
 // tile, which then walks all of them.
 #define ML_PRUNED_ALL 0x80000000u
 
@@ -68,8 +68,8 @@ ML_FUNCTION uint listed_pair(uint direct, uint probes) {
 ML_FUNCTION uint packed_count(uint word) {
   return word >> 30;
 }
-ML_FUNCTION uint packed_index(uint word, uint place) {
-  return word >> (place * 10u) & 0x3ffu;
+ML_FUNCTION uint packed_index(uint word, uint slot) {
+  return word >> (slot * 10u) & 0x3ffu;
 }
 
 ML_NAMESPACE_END

@@ -10,7 +10,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #include "shaders/surface.glsl"
 
-uint candidate(uint place) { return place; }
+uint candidate(uint index) { return index; }
 #include "light_batches.glsl"
 
 layout(local_size_x = ML_PRUNED_GROUP) in;
@@ -47,9 +47,9 @@ void main() {
   clear_batches();
   const ScreenBounds region = region_bounds();
   const uint count = region.near <= region.far ? visible.count : 0u;  // else all is sky
-  uint held = 0u, turn = 0u;
+  uint held = 0u, slot = 0u;
   for (uint begin = 0u; begin < count; begin += batch) {
-    const uint field = turn * batch_words;
+    const uint field = slot * batch_words;
     test_batch(begin, count, field, region);
     barrier();
     const uint rounds = rounds_of(begin, count);
@@ -59,7 +59,7 @@ void main() {
         region_lists[list + 1u + held + bits_before(mask, thread)] = begin + round * ML_PRUNED_GROUP + thread;
       held += bitCount(mask.x) + bitCount(mask.y);
     }
-    turn = next_turn(turn);
+    slot = next_slot(slot);
   }
   if (thread == 0u) region_lists[list] = held;
 }

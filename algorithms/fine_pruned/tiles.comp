@@ -2,7 +2,7 @@
 // light's screen bounds against the tile's. Fine: the coarse lights' true volumes against the tile's pixels, 64 lights
 // at a time.
 //
-// Order comes from bits: a batch of lights is tested into a bit field, and a light's place in the list is the number of
+// Order comes from bits: a batch of lights is tested into a bit field, and a light's rank in the list is the number of
 // bits before its own. So it depends neither on the order of threads nor on the width of a subgroup
 // (light_batches.glsl).
 #version 460
@@ -20,13 +20,13 @@
 // The tile's region has listed the lights that it may have (regions.comp).
 layout(constant_id = 35) const bool REGIONS = false;
 uint region_list;                                     // where its list begins
-uint candidate(uint place);
+uint candidate(uint index);
 #include "light_batches.glsl"
 
 layout(local_size_x = ML_PRUNED_GROUP) in;
 layout(constant_id = 32) const uint MODE = 0u;
 const uint mode_count = 0u;   // only counts the coarse lights
-const uint mode_lists = 1u;   // writes the list at the place that offsets.comp found for it
+const uint mode_lists = 1u;   // writes the list where offsets.comp found space for it
 const uint mode_packed = 2u;  // the chapter's limits, and 32 bytes a list
 
 layout(scalar, binding = 18) buffer TileLists { uvec2 tile_lists[]; };  // first light and count
@@ -50,7 +50,7 @@ void poison_shared() {
   barrier();
 }
 
-uint candidate(uint place) { return REGIONS ? region_lists[region_list + 1u + place] : place; }
+uint candidate(uint index) { return REGIONS ? region_lists[region_list + 1u + index] : index; }
 
 #include "prune.glsl"
 
@@ -63,8 +63,8 @@ void append_chunk(uint begin, uint count, uint first, inout uint listed) {
     const uint probes = probes_from(begin, count), direct = probes < 64u ? bits_before(mask, probes) : all;
     if (has_bit(mask, thread)) {
       const bool probe = thread >= probes;
-      const uint place = bits_before(mask, thread) - (probe ? direct : 0u);
-      if (place < ML_PACKED_LIGHTS) kept[(probe ? ML_PACKED_LIGHTS : 0u) + place] = coarse[begin + thread];
+      const uint rank = bits_before(mask, thread) - (probe ? direct : 0u);
+      if (rank < ML_PACKED_LIGHTS) kept[(probe ? ML_PACKED_LIGHTS : 0u) + rank] = coarse[begin + thread];
     }
     listed = listed_pair(direct, all - direct);
     return;
@@ -81,9 +81,9 @@ uint keep_batch(uint first_light, uint count, uint field, uint held) {
   for (uint round = 0u; round < rounds; ++round) {
     const uvec2 mask = passed_in(field, round);
     if (MODE != mode_count && has_bit(mask, thread)) {
-      const uint place = before + bits_before(mask, thread);
-      if (MODE == mode_lists || place < ML_PRUNED_CHUNK)
-        coarse[place] = candidate(first_light + round * ML_PRUNED_GROUP + thread);
+      const uint rank = before + bits_before(mask, thread);
+      if (MODE == mode_lists || rank < ML_PRUNED_CHUNK)
+        coarse[rank] = candidate(first_light + round * ML_PRUNED_GROUP + thread);
     }
     before += bitCount(mask.x) + bitCount(mask.y);
   }
@@ -98,20 +98,20 @@ void main() {
   load_points();
 
   const uint first = MODE == mode_lists ? tile_lists[tile].x : 0u;
-  const bool no_room = MODE == mode_lists && first == ML_PRUNED_ALL;
+  const bool no_space = MODE == mode_lists && first == ML_PRUNED_ALL;
   // A tile of sky has an empty list.
   if (REGIONS)
     region_list = push.region_words * ((gl_WorkGroupID.y >> push.region_shift) * push.region_columns +
                                        (gl_WorkGroupID.x >> push.region_shift));
   const uint candidates = REGIONS ? region_lists[region_list] : visible.count;
-  const uint count = no_room || !(tile_bounds.near <= tile_bounds.far) ? 0u : candidates;
-  uint demand = 0u, held = 0u, listed = 0u, turn = 0u;
+  const uint count = no_space || !(tile_bounds.near <= tile_bounds.far) ? 0u : candidates;
+  uint demand = 0u, held = 0u, listed = 0u, slot = 0u;
   for (uint begin = 0u; begin < count; begin += batch) {
-    const uint field = turn * batch_words;
+    const uint field = slot * batch_words;
     test_batch(begin, count, field, tile_bounds);
     barrier();
     const uint more = keep_batch(begin, count, field, held);
-    turn = next_turn(turn);
+    slot = next_slot(slot);
     demand += more;
     held += more;
     if (MODE == mode_lists && held >= ML_PRUNED_CHUNK) {
@@ -132,7 +132,7 @@ void main() {
   barrier();
   held = min(held, ML_PRUNED_CHUNK);
   if (held != 0u) append_chunk(0u, held, first, listed);
-  if (MODE == mode_lists && no_room) listed = visible.count;
+  if (MODE == mode_lists && no_space) listed = visible.count;
   if (thread == 0u) {
     if (MODE == mode_packed) tile_counts[tile].x = demand;  // else counted before
     tile_counts[tile].y = listed;

@@ -13,7 +13,7 @@ FroxelGrid tile_grid(const gpu_data::ViewData& view) {
 
 constexpr size_t types = 6;
 
-// Place in the sequence of loops over lights (section 2.4); probe lights come after all direct ones.
+// Rank in the sequence of loops over lights (section 2.4); probe lights come after all direct ones.
 size_t type_of(uint32_t id_shape) {
   const size_t first = id_shape & ML_LIGHT_PROBE ? types / 2 : 0;
   switch (id_shape >> 24) {
@@ -36,18 +36,18 @@ void VisibleLightList::cull(const FrameInput& frame, Spans& spans) {
   visible_.count = simd::cull(frame.lights, 0, frame.lights.count(), constants, visible_);
 }
 
-void VisibleLightList::sort(const FrameInput& frame, uint32_t most, Spans& spans) {
+void VisibleLightList::sort(const FrameInput& frame, uint32_t max_lights, Spans& spans) {
   auto span = spans.span("sort");
   std::array<uint32_t, types> counts{}, next{};
   for (size_t i = 0; i < visible_.count; ++i)
     ++counts[type_of(frame.lights.core[visible_.index[i]].id_shape)];
   for (size_t type = 1; type < types; ++type) next[type] = next[type - 1] + counts[type - 1];
-  header_.count = std::min(in_frustum(), most);
-  header_.first_cone = std::min(next[1], most);
-  header_.first_box = std::min(next[2], most);
-  header_.first_probe = std::min(next[3], most);
-  header_.first_probe_cone = std::min(next[4], most);
-  header_.first_probe_box = std::min(next[5], most);
+  header_.count = std::min(in_frustum(), max_lights);
+  header_.first_cone = std::min(next[1], max_lights);
+  header_.first_box = std::min(next[2], max_lights);
+  header_.first_probe = std::min(next[3], max_lights);
+  header_.first_probe_cone = std::min(next[4], max_lights);
+  header_.first_probe_box = std::min(next[5], max_lights);
   if (sorted_.size() < visible_.count) sorted_.resize(visible_.count);
   for (size_t i = 0; i < visible_.count; ++i) {
     const uint32_t light = visible_.index[i];
@@ -64,8 +64,8 @@ uint64_t VisibleLightList::max_entries_of_tiles(const FrameInput& frame) {
   return simd::bound(VisibleRun(visible_), BoundsConstants(frame.view, grid), boxes_.data());
 }
 
-uint32_t VisibleLightList::most_in_a_tile() {
-  // A box adds one from its first column and row on and takes it away behind its last; sums over columns and
+uint32_t VisibleLightList::max_in_a_tile() {
+  // A box adds one from its first column and row on and takes it away past its last; sums over columns and
   // rows are the numbers of boxes.
   const size_t stride = columns_ + size_t{1};
   changes_.assign(stride * (rows_ + size_t{1}), 0);
@@ -78,7 +78,7 @@ uint32_t VisibleLightList::most_in_a_tile() {
     --changes_[(row + box.rows) * stride + column];
     ++changes_[(row + box.rows) * stride + column + box.columns];
   }
-  int32_t most = 0;
+  int32_t max_boxes = 0;
   for (size_t row = 0; row < rows_; ++row) {
     int32_t across = 0;
     for (size_t column = 0; column < columns_; ++column) {
@@ -86,10 +86,10 @@ uint32_t VisibleLightList::most_in_a_tile() {
       int32_t& change = changes_[row * stride + column];
       if (row > 0) change += changes_[(row - 1) * stride + column];
       across += change;
-      most = std::max(most, across);
+      max_boxes = std::max(max_boxes, across);
     }
   }
-  return static_cast<uint32_t>(most);
+  return static_cast<uint32_t>(max_boxes);
 }
 
 }  // namespace ml

@@ -15,8 +15,9 @@ class VisibleLightList {
   // Leaves out what is outside the view. Span "cull".
   void cull(const FrameInput& frame, Spans& spans);
   // Direct lights, then probe lights; of both balls (omni, capsule), cones (spot, wedge), boxes; each type in
-  // ascending order of index. At most `most` lights are kept, the first ones in that order. Span "sort".
-  void sort(const FrameInput& frame, uint32_t most, Spans& spans);
+  // ascending order of index. At most `max_lights` lights are kept, the first ones in that order. Span
+  // "sort".
+  void sort(const FrameInput& frame, uint32_t max_lights, Spans& spans);
 
   uint32_t in_frustum() const { return static_cast<uint32_t>(visible_.count); }
   const gpu_data::VisibleHeader& header() const { return header_; }
@@ -25,8 +26,8 @@ class VisibleLightList {
   // Entries that the lists of all tiles have at most: the tiles of every ball's box. Not less than what the
   // device finds but for rounding at the edge of a tile.
   uint64_t max_entries_of_tiles(const FrameInput& frame);
-  // The most of them in one tile, after max_entries_of_tiles().
-  uint32_t most_in_a_tile();
+  // The largest number of them in one tile, after max_entries_of_tiles().
+  uint32_t max_in_a_tile();
 
  private:
   VisibleLights visible_;

@@ -52,13 +52,13 @@ void BallTest::build(const BoundsConstants& c) {
     slice_low[slice] = std::max(depth_ranges[slice].low, c.view.near * 0.99999f);
     slice_high[slice] = std::max(depth_ranges[slice].high, slice_low[slice]);
   }
-  if (!places.empty()) return;
-  constexpr uint32_t most = BoxOffsets::max_extent;
-  places.assign(size_t{most} * most * most * BoxOffsets::stride, 0);
-  for (uint32_t columns = 1; columns <= most; ++columns)
-    for (uint32_t rows = 1; rows <= most; ++rows)
-      for (uint32_t depth = 1; depth <= most; ++depth) {
-        auto* next = const_cast<uint32_t*>(box_places(columns, rows, depth));
+  if (!coordinates.empty()) return;
+  constexpr uint32_t max_extent = BoxOffsets::max_extent;
+  coordinates.assign(size_t{max_extent} * max_extent * max_extent * BoxOffsets::stride, 0);
+  for (uint32_t columns = 1; columns <= max_extent; ++columns)
+    for (uint32_t rows = 1; rows <= max_extent; ++rows)
+      for (uint32_t depth = 1; depth <= max_extent; ++depth) {
+        auto* next = const_cast<uint32_t*>(box_coordinates(columns, rows, depth));
         for (uint32_t slice = 0; slice < depth; ++slice)
           for (uint32_t row = 0; row < rows; ++row)
             for (uint32_t column = 0; column < columns; ++column)
@@ -92,21 +92,21 @@ BallInFroxel ball_in_froxel(const BallTest& t, bool orthographic, float x, float
   const float half_slope = ahead + across.edge * across.away + up.edge * up.away;
   const float step = clamped(0 - half_slope, near - depth, far - depth);
   const bool reached = !(distance2 + step * (half_slope + half_slope + step) > radius * radius);
-  // Where distance2 + 2 half_slope s + s^2 is radius^2, s metres behind `depth`.
+  // Where distance2 + 2 half_slope s + s^2 is radius^2, s metres beyond `depth`.
   const float squares = half_slope * half_slope + radius * radius;
   const float half = std::sqrt(std::max(squares - distance2 + squares * chord_slack, 0.0f));
   const float middle = depth - half_slope;
   return {reached, {(half - middle) * 0.99999f, (half + middle) * 1.00001f}};
 }
 
-void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
+void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* indices, size_t first,
                  size_t count, const BoundsConstants& c, const BallTest& test, const DepthReach* reaches,
                  FroxelPairs& pairs) {
   const FroxelGrid& grid = c.grid;
   const bool orthographic = c.view.orthographic != 0;
   size_t n = 0;
   for (size_t k = 0; k < count; ++k) {
-    const size_t i = places ? places[k] : first + k;
+    const size_t i = indices ? indices[k] : first + k;
     const LightBox& box = boxes[i];
     const uint32_t column0 = box.first % grid.columns, row0 = box.first / grid.columns % grid.rows;
     const uint32_t slice0 = box.first / grid.columns / grid.rows;

@@ -28,11 +28,12 @@ struct BallTest {
   // (m) of a slice's surface points; widened.
   std::vector<float> column_low, column_high, row_low, row_high, slice_low, slice_high;
   std::vector<FroxelGrid::DepthRange> depth_ranges;  // what build() takes the slices' depths from
-  // Place of a froxel in its box: column + (row << 8) + (slice << 16), ordered as BoxOffsets is.
-  std::vector<uint32_t> places;
-  const uint32_t* box_places(uint32_t columns, uint32_t rows, uint32_t slices) const {
-    constexpr uint32_t most = BoxOffsets::max_extent;
-    return &places[(((columns - 1) * most + rows - 1) * most + slices - 1) * BoxOffsets::stride];
+  // Coordinates of each froxel of a box: column + (row << 8) + (slice << 16), ordered as BoxOffsets is.
+  std::vector<uint32_t> coordinates;
+  const uint32_t* box_coordinates(uint32_t columns, uint32_t rows, uint32_t slices) const {
+    constexpr uint32_t max_extent = BoxOffsets::max_extent;
+    return &coordinates[(((columns - 1) * max_extent + rows - 1) * max_extent + slices - 1) *
+                        BoxOffsets::stride];
   }
   void build(const BoundsConstants& constants);
 };
@@ -51,17 +52,17 @@ namespace scalar {
 BallInFroxel ball_in_froxel(const BallTest& test, bool orthographic, float x, float y, float z, float radius,
                             uint32_t column, uint32_t row, uint32_t slice);
 // See below.
-void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
+void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* indices, size_t first,
                  size_t count, const BoundsConstants& constants, const BallTest& test,
                  const DepthReach* reaches, FroxelPairs& pairs);
 }  // namespace scalar
 
 namespace simd {
 // Writes the pairs of those froxels that the balls reach. The boxes and their lights are those at
-// places[0..count), with padding behind them, or without places at [first, first + count). With `reaches`,
+// indices[0..count), with padding after them, or without indices at [first, first + count). With `reaches`,
 // the depths of whole lights by index, each pair gets those at which the ball is met in its tile and the
 // light is within them.
-void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
+void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* indices, size_t first,
                  size_t count, const BoundsConstants& constants, const BallTest& test,
                  const BoxOffsets& offsets, const DepthReach* reaches, FroxelPairs& pairs);
 }  // namespace simd

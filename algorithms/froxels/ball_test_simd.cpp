@@ -129,12 +129,12 @@ class Emitter {
   // Those of a box of up to 4 x 4 x 4 that the ball reaches.
   HWY_INLINE void small(const LightBox& box, const Ball& ball) {
     const uint32_t total = uint32_t{box.columns} * box.rows * box.slices;
-    const Place at = place(box);
+    const Corner at = corner(box);
     const uint32_t* table = offsets_.get(box.columns, box.rows, box.slices);
-    const uint32_t* places = test_.box_places(box.columns, box.rows, box.slices);
+    const uint32_t* coordinates = test_.box_coordinates(box.columns, box.rows, box.slices);
     const VU byte = hn::Set(du, 0xff);
     for (uint32_t k = 0; k < total; k += lanes()) {
-      const VU in_box = hn::LoadU(du, places + k);
+      const VU in_box = hn::LoadU(du, coordinates + k);
       const VU column = hn::And(in_box, byte), row = hn::And(hn::ShiftRight<8>(in_box), byte),
                slice = hn::ShiftRight<16>(in_box);
       const Edges edges{
@@ -146,7 +146,7 @@ class Emitter {
     }
   }
   HWY_INLINE void large(const LightBox& box, const Ball& ball) {
-    const Place at = place(box);
+    const Corner at = corner(box);
     for (uint32_t slice = 0; slice < box.slices; ++slice)
       for (uint32_t row = 0; row < box.rows; ++row) {
         const uint32_t first = box.first + grid_.cell(0, row, slice);
@@ -165,11 +165,11 @@ class Emitter {
   size_t written(const FroxelPairs& pairs) const { return static_cast<size_t>(cell_ - pairs.cell.data()); }
 
  private:
-  struct Place {
+  struct Corner {
     uint32_t column, row, slice;
   };
   static uint32_t lanes() { return static_cast<uint32_t>(hn::Lanes(df)); }
-  Place place(const LightBox& box) const {
+  Corner corner(const LightBox& box) const {
     const uint32_t row = box.first / grid_.columns;
     const uint32_t slice = row / grid_.rows;
     return {box.first - row * grid_.columns, row - slice * grid_.rows, slice};
@@ -204,24 +204,24 @@ class Emitter {
 };
 
 template <bool orthographic, bool with_depths>
-void emit_all(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
+void emit_all(const VisibleLights& visible, const LightBox* boxes, const uint32_t* indices, size_t first,
               size_t count, const FroxelGrid& grid, const BallTest& test, const BoxOffsets& offsets,
               const DepthReach* reaches, FroxelPairs& pairs) {
-  // Places jump about in more memory than the nearest caches hold, and are known long before.
+  // Indices jump about in more memory than the nearest caches hold, and are known long before.
   constexpr size_t ahead = 24;
-  constexpr uint32_t most = BoxOffsets::max_extent;
+  constexpr uint32_t max_extent = BoxOffsets::max_extent;
   Emitter<orthographic, with_depths> emitter(test, offsets, grid, reaches, pairs);
   for (size_t k = 0; k < count; ++k) {
-    if (places) {
-      const size_t later = places[k + ahead];
+    if (indices) {
+      const size_t later = indices[k + ahead];
       hwy::Prefetch(&boxes[later]);
       hwy::Prefetch(&visible.x[later]);
       hwy::Prefetch(&visible.y[later]);
       hwy::Prefetch(&visible.z[later]);
       hwy::Prefetch(&visible.radius[later]);
-      if constexpr (with_depths) hwy::Prefetch(&reaches[boxes[places[k + ahead / 2]].light]);
+      if constexpr (with_depths) hwy::Prefetch(&reaches[boxes[indices[k + ahead / 2]].light]);
     }
-    const size_t i = places ? places[k] : first + k;
+    const size_t i = indices ? indices[k] : first + k;
     const LightBox& box = boxes[i];
     if (!has_corners(box)) {
       emitter.whole(box);
@@ -230,7 +230,7 @@ void emit_all(const VisibleLights& visible, const LightBox* boxes, const uint32_
     const VF radius = hn::Set(df, visible.radius[i]);
     const Ball ball{hn::Set(df, visible.x[i]), hn::Set(df, visible.y[i]), hn::Set(df, visible.z[i]),
                     hn::Mul(radius, radius)};
-    if ((box.columns <= most) & (box.rows <= most) & (box.slices <= most))
+    if ((box.columns <= max_extent) & (box.rows <= max_extent) & (box.slices <= max_extent))
       emitter.small(box, ball);
     else
       emitter.large(box, ball);
@@ -238,12 +238,12 @@ void emit_all(const VisibleLights& visible, const LightBox* boxes, const uint32_
   pairs.count = emitter.written(pairs);
 }
 
-void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
+void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* indices, size_t first,
                  size_t count, const BoundsConstants& c, const BallTest& test, const BoxOffsets& offsets,
                  const DepthReach* reaches, FroxelPairs& pairs) {
   const auto emit = c.view.orthographic ? (reaches ? emit_all<true, true> : emit_all<true, false>)
                                         : (reaches ? emit_all<false, true> : emit_all<false, false>);
-  emit(visible, boxes, places, first, count, c.grid, test, offsets, reaches, pairs);
+  emit(visible, boxes, indices, first, count, c.grid, test, offsets, reaches, pairs);
 }
 
 }  // namespace ml::simd::HWY_NAMESPACE
@@ -254,11 +254,11 @@ namespace ml::simd {
 
 HWY_EXPORT(emit_tested);
 
-void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
+void emit_tested(const VisibleLights& visible, const LightBox* boxes, const uint32_t* indices, size_t first,
                  size_t count, const BoundsConstants& constants, const BallTest& test,
                  const BoxOffsets& offsets, const DepthReach* reaches, FroxelPairs& pairs) {
   HWY_DYNAMIC_DISPATCH(emit_tested)
-  (visible, boxes, places, first, count, constants, test, offsets, reaches, pairs);
+  (visible, boxes, indices, first, count, constants, test, offsets, reaches, pairs);
 }
 
 }  // namespace ml::simd

@@ -15,14 +15,14 @@ namespace ml {
 // Lights in front of the camera and not outside a side plane of the view, in view space, in ascending order
 // of index.
 struct VisibleLights {
-  // View-space centre (m), widened radius (m), light index; vector padding behind the last element.
+  // View-space centre (m), widened radius (m), light index; vector padding after the last element.
   std::vector<float> x, y, z, radius;
   std::vector<uint32_t> index;
   size_t count = 0;  // elements in use, where they are one run from the first on
   void reserve(size_t lights);
 };
 
-// A run of visible lights. Vector code reads up to 64 elements behind the last one.
+// A run of visible lights. Vector code reads up to 64 elements past the last one.
 struct VisibleRun {
   const float *x, *y, *z, *radius;
   const uint32_t* index;
@@ -56,11 +56,11 @@ struct DepthReach {
   float minus_low, high;
 };
 
-// Elements behind the last one that vector code may touch, and the multiple at which runs begin that are
+// Elements past the last one that vector code may touch, and the multiple at which runs begin that are
 // written side by side.
 inline constexpr size_t vector_padding = 64;
 
-// Room for `count` elements and the padding; grows rarely and never shrinks.
+// Makes space for `count` elements and the padding; grows rarely and never shrinks.
 template <typename Element>
 void reserve_padded(std::vector<Element>& elements, size_t count) {
   if (elements.size() < count + vector_padding) elements.resize(count + count / 4 + vector_padding);
@@ -103,23 +103,23 @@ DepthInterval depth_interval(float z, float radius);
 
 namespace simd {
 // Writes the visible ones of lights [begin, end) to `visible`, from its element `begin` on, and returns how
-// many they are. With `reaches`, reaches[i] becomes light i's depths, visible or not. Both have room for all
+// many they are. With `reaches`, reaches[i] becomes light i's depths, visible or not. Both have space for all
 // lights and the padding; whole vectors are written. Parts that begin at multiples of the padding can be
 // culled side by side.
 size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsConstants& constants,
             VisibleLights& visible, DepthReach* reaches = nullptr);
 // boxes[i]: of light i of the run; whole vectors are written. Returns the sum of the boxes' froxels.
 uint64_t bound(const VisibleRun& visible, const BoundsConstants& constants, LightBox* boxes);
-// Writes the pairs of the boxes boxes[places[0..count)], or boxes[0..count) without places, one after the
+// Writes the pairs of the boxes boxes[indices[0..count)], or boxes[0..count) without indices, one after the
 // other.
-void emit(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+void emit(const LightBox* boxes, const uint32_t* indices, size_t count, const FroxelGrid& grid,
           const BoxOffsets& offsets, FroxelPairs& pairs);
 }  // namespace simd
 
-// Sum of the boxes' froxels, the pairs that emit() will write; places as there. bound() returns that of a
+// Sum of the boxes' froxels, the pairs that emit() will write; indices as there. bound() returns that of a
 // whole run.
-uint64_t count_pairs(const LightBox* boxes, const uint32_t* places, size_t count);
-// Makes room for `count` pairs and the vector code's padding.
+uint64_t count_pairs(const LightBox* boxes, const uint32_t* indices, size_t count);
+// Makes space for `count` pairs and the vector code's padding.
 void reserve_pairs(FroxelPairs& pairs, size_t count, bool with_reaches = false);
 
 }  // namespace ml

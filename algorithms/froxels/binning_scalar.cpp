@@ -44,9 +44,9 @@ void reserve_pairs(FroxelPairs& pairs, size_t count, bool with_reaches) {
   reserve_padded(pairs.high, count);
 }
 
-uint64_t count_pairs(const LightBox* boxes, const uint32_t* places, size_t count) {
+uint64_t count_pairs(const LightBox* boxes, const uint32_t* indices, size_t count) {
   uint64_t sum = 0;
-  for (size_t i = 0; i < count; ++i) sum += boxes[places ? places[i] : i].froxels();
+  for (size_t i = 0; i < count; ++i) sum += boxes[indices ? indices[i] : i].froxels();
   return sum;
 }
 

@@ -216,25 +216,25 @@ uint64_t bound(const VisibleRun& visible, const BoundsConstants& c, LightBox* bo
 }
 
 template <bool ordered>
-void emit_all(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+void emit_all(const LightBox* boxes, const uint32_t* indices, size_t count, const FroxelGrid& grid,
               const BoxOffsets& offsets, FroxelPairs& pairs) {
   // Most boxes have four froxels or fewer: wider vectors would write more in vain.
   constexpr hn::CappedTag<uint32_t, 8> de;
   using VE = hn::Vec<hn::CappedTag<uint32_t, 8>>;
-  // Places jump about in more memory than the nearest caches hold, and are known long before.
+  // Indices jump about in more memory than the nearest caches hold, and are known long before.
   constexpr size_t ahead = 24;
   const size_t lanes = hn::Lanes(de);
   uint32_t* cell = pairs.cell.data();
   uint32_t* light = pairs.light.data();
   for (size_t i = 0; i < count; ++i) {
-    if (ordered) hwy::Prefetch(&boxes[places[i + ahead]]);
-    const LightBox& box = boxes[ordered ? places[i] : i];
+    if (ordered) hwy::Prefetch(&boxes[indices[i + ahead]]);
+    const LightBox& box = boxes[ordered ? indices[i] : i];
     const uint32_t columns = box.columns, rows = box.rows, slices = box.slices;
     const uint32_t total = columns * rows * slices;
     if (total == 0) continue;
     const VE first = hn::Set(de, box.first), index = hn::Set(de, box.light);
-    constexpr uint32_t most = BoxOffsets::max_extent;
-    if ((columns <= most) & (rows <= most) & (slices <= most)) {
+    constexpr uint32_t max_extent = BoxOffsets::max_extent;
+    if ((columns <= max_extent) & (rows <= max_extent) & (slices <= max_extent)) {
       // Whole vectors are written; what is too much is overwritten by the next light.
       const uint32_t* table = offsets.get(columns, rows, slices);
       size_t k = 0;
@@ -264,10 +264,10 @@ void emit_all(const LightBox* boxes, const uint32_t* places, size_t count, const
   pairs.count = static_cast<size_t>(cell - pairs.cell.data());
 }
 
-void emit(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+void emit(const LightBox* boxes, const uint32_t* indices, size_t count, const FroxelGrid& grid,
           const BoxOffsets& offsets, FroxelPairs& pairs) {
-  if (places)
-    emit_all<true>(boxes, places, count, grid, offsets, pairs);
+  if (indices)
+    emit_all<true>(boxes, indices, count, grid, offsets, pairs);
   else
     emit_all<false>(boxes, nullptr, count, grid, offsets, pairs);
 }
@@ -289,9 +289,9 @@ size_t cull(const FrameLights& lights, size_t begin, size_t end, const BoundsCon
 uint64_t bound(const VisibleRun& visible, const BoundsConstants& constants, LightBox* boxes) {
   return HWY_DYNAMIC_DISPATCH(bound)(visible, constants, boxes);
 }
-void emit(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+void emit(const LightBox* boxes, const uint32_t* indices, size_t count, const FroxelGrid& grid,
           const BoxOffsets& offsets, FroxelPairs& pairs) {
-  HWY_DYNAMIC_DISPATCH(emit)(boxes, places, count, grid, offsets, pairs);
+  HWY_DYNAMIC_DISPATCH(emit)(boxes, indices, count, grid, offsets, pairs);
 }
 
 }  // namespace ml::simd

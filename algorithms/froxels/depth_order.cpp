@@ -13,8 +13,8 @@ DepthKey::DepthKey(const gpu_data::ViewData& view)
     : near_(std::bit_cast<uint32_t>(std::max(view.near, view.far * 1e-9f))), last_(0), shift_(0) {
   constexpr uint32_t octave = 1u << 23, largest = 0x7f7fffffu;  // in a float's bits; the largest finite float
   const uint32_t far = std::bit_cast<uint32_t>(std::max(view.near, view.far));
-  while ((std::min(far + octave, largest) - near_) >> shift_ > most) ++shift_;
-  last_ = static_cast<uint32_t>(std::min<uint64_t>(near_ + ((uint64_t{most} + 1) << shift_) - 1, largest));
+  while ((std::min(far + octave, largest) - near_) >> shift_ > max) ++shift_;
+  last_ = static_cast<uint32_t>(std::min<uint64_t>(near_ + ((uint64_t{max} + 1) << shift_) - 1, largest));
 }
 
 uint32_t DepthKey::operator()(float z) const {
@@ -35,17 +35,17 @@ void DepthOrder::begin_of_digits(size_t runs, Histogram Run::*histogram) {
     }
 }
 
-void DepthOrder::sort(const float* z, std::span<const PlaceRun> runs, const DepthKey& key, Threads& threads) {
+void DepthOrder::sort(const float* z, std::span<const IndexRun> runs, const DepthKey& key, Threads& threads) {
   count_ = 0;
   size_t end = 0;
-  for (const PlaceRun& run : runs) {
+  for (const IndexRun& run : runs) {
     count_ += run.count;
     end = std::max(end, run.first + run.count);
   }
   ML_CHECK_LE(end, size_t{1} << 24);
   reserve_padded(keys_, end);
   reserve_padded(items_, count_);
-  reserve_padded(places_, count_);
+  reserve_padded(indices_, count_);
   if (runs_.size() < runs.size()) runs_.resize(runs.size());
   const size_t count = runs.size();
 
@@ -80,7 +80,7 @@ void DepthOrder::sort(const float* z, std::span<const PlaceRun> runs, const Dept
   threads.for_each(count, [&](size_t r) {
     Histogram& next = runs_[r].high;
     for (size_t i = begin_of(r); i < begin_of(r + 1); ++i)
-      places_[next[items_[i] >> 24]++] = items_[i] & 0xffffffu;
+      indices_[next[items_[i] >> 24]++] = items_[i] & 0xffffffu;
   });
 }
 

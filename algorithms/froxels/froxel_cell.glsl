@@ -9,9 +9,9 @@ FroxelGridData grid = grid_data;  // read before all branches, as the view is (s
 // Where a list's light index stands among words, and what the word says. Indices of 16 bits are asked for by
 // NARROW_INDICES; frames of more lights than those can tell apart have whole words.
 layout(constant_id = 48) const bool NARROW_INDICES = false;
-uint index_word(uint place) { return NARROW_INDICES && grid.narrow != 0u ? place >> 1 : place; }
-uint index_of(uint word, uint place) {
-  return NARROW_INDICES && grid.narrow != 0u ? word >> ((place & 1u) << 4) & 0xffffu : word;
+uint index_word(uint entry) { return NARROW_INDICES && grid.narrow != 0u ? entry >> 1 : entry; }
+uint index_of(uint word, uint entry) {
+  return NARROW_INDICES && grid.narrow != 0u ? word >> ((entry & 1u) << 4) & 0xffffu : word;
 }
 
 uint tile_of_point(SurfacePoint point) {

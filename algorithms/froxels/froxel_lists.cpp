@@ -41,12 +41,12 @@ void FroxelLists::cull(const FrameInput& frame, bool by_depth, const BoundsConst
                                   by_depth ? reaches_.data() : nullptr)};
   });
   in_frustum_ = 0;
-  for (const PlaceRun& run : runs_) in_frustum_ += run.count;
+  for (const IndexRun& run : runs_) in_frustum_ += run.count;
 }
 
 void FroxelLists::bound(const FrameLights& lights, size_t p, bool by_depth,
                         const BoundsConstants& constants) {
-  const PlaceRun run = runs_[p];
+  const IndexRun run = runs_[p];
   const VisibleRun visible(visible_, run.first, run.first + run.count);
   LightBox* boxes = &boxes_[run.first];
   uint64_t froxels = simd::bound(visible, constants, boxes);
@@ -70,13 +70,13 @@ void FroxelLists::emit(size_t p, const FroxelSettings& settings, const BoundsCon
   Part& part = parts_[p];
   const LightBox* boxes = boxes_.data();
   size_t first = runs_[p].first, count = runs_[p].count;
-  const uint32_t* places = nullptr;
+  const uint32_t* indices = nullptr;
   if (by_depth) {
     first = in_frustum_ * p / runs_.size();
     count = in_frustum_ * (p + 1) / runs_.size() - first;
-    places = order_.places().data() + first;
+    indices = order_.indices().data() + first;
     first = 0;
-    if (runs_.size() > 1) part.froxels = count_pairs(boxes, places, count);
+    if (runs_.size() > 1) part.froxels = count_pairs(boxes, indices, count);
   }
   const uint64_t pairs = part.froxels;
   if (pairs > max_entries && !narrowed) too_many(pairs, max_entries);
@@ -85,12 +85,12 @@ void FroxelLists::emit(size_t p, const FroxelSettings& settings, const BoundsCon
   if (pairs > 4 * max_entries) too_many(pairs, max_entries);
   reserve_pairs(part.pairs, pairs, chords_);
   if (settings.ball_test)
-    simd::emit_tested(visible_, boxes_.data(), places, first, count, constants, ball_test_, box_offsets_,
+    simd::emit_tested(visible_, boxes_.data(), indices, first, count, constants, ball_test_, box_offsets_,
                       chords_ ? reaches_.data() : nullptr, part.pairs);
   else if (settings.refinement)
-    emit_refined(visible_, boxes_.data(), places, first, count, constants, planes_, part.pairs);
+    emit_refined(visible_, boxes_.data(), indices, first, count, constants, planes_, part.pairs);
   else
-    simd::emit(boxes + first, places, count, grid_, box_offsets_, part.pairs);
+    simd::emit(boxes + first, indices, count, grid_, box_offsets_, part.pairs);
   part.next.assign(grid_.cells(), 0);
   for (size_t i = 0; i < part.pairs.count; ++i) ++part.next[part.pairs.cell[i]];
 }
@@ -135,7 +135,7 @@ bool FroxelLists::list_rows(const FrameInput& frame, bool by_depth, uint64_t max
   if (!rows_are_cheaper(boxes_.data(), in_frustum_, pairs, grid_, light_end)) return false;
   if (pairs > max_entries) too_many(pairs, max_entries);
   begin_list(pairs, memory, slot);
-  longest_ = simd::list_rows(boxes_.data(), by_depth ? order_.places().data() : nullptr, in_frustum_, grid_,
+  longest_ = simd::list_rows(boxes_.data(), by_depth ? order_.indices().data() : nullptr, in_frustum_, grid_,
                              light_end, row_memory_, offsets_.data(), list_.data());
   return true;
 }
@@ -169,9 +169,9 @@ void FroxelLists::scatter_part(size_t part) {
   const FroxelPairs& pairs = parts_[part].pairs;
   uint32_t* next = parts_[part].next.data();
   const auto scatter = [&](size_t i) {
-    const uint32_t place = next[pairs.cell[i]]++;
-    list_[place] = pairs.light[i];
-    if constexpr (with_reaches) entry_reaches_[place] = {pairs.minus_low[i], pairs.high[i]};
+    const uint32_t entry = next[pairs.cell[i]]++;
+    list_[entry] = pairs.light[i];
+    if constexpr (with_reaches) entry_reaches_[entry] = {pairs.minus_low[i], pairs.high[i]};
   };
   if (entries_ < few_entries) {
     for (size_t i = 0; i < pairs.count; ++i) scatter(i);

@@ -71,7 +71,7 @@ class FroxelLists {
   // The most entries of one froxel.
   uint32_t longest() const { return longest_; }
 
-  // Whether the lists came from sweeping over rows (row_lists.h) rather than from pairs.
+  // Whether the lists were made row by row (row_lists.h) rather than from pairs.
   bool built_by_rows() const { return by_rows_; }
 
   // Order by depth only: the depths (m) that each light in a list reaches, by light index.
@@ -101,7 +101,7 @@ class FroxelLists {
   void scatter_part(size_t part);
   void build(const FrameInput& frame, const FroxelSettings& settings, uint64_t max_entries,
              UploadMemory* memory, uint32_t slot, Spans& spans);
-  // Takes room for the lists' entries.
+  // Makes space for the lists' entries.
   void begin_list(uint64_t entries, UploadMemory* memory, uint32_t slot);
   static bool narrows(const FrameInput& frame, const FroxelSettings& settings) {
     return settings.narrow && frame.lights.count() <= size_t{1} << 16;
@@ -114,13 +114,13 @@ class FroxelLists {
   RefinementPlanes planes_;
   BallTest ball_test_;
   // One for each of runs_ and of parts_ is in use.
-  std::vector<PlaceRun> runs_;
+  std::vector<IndexRun> runs_;
   std::vector<Part> parts_;
   VisibleLights visible_;
   std::vector<DepthReach> reaches_, entry_reaches_;
   DepthOrder order_;
   RowMemory row_memory_;
-  std::vector<LightBox> boxes_;  // by place in visible_
+  std::vector<LightBox> boxes_;  // by index in visible_
   std::vector<uint32_t> offsets_, own_list_;
   std::span<uint32_t> list_;  // own_list_ or upload memory
   size_t entries_ = 0;

@@ -31,7 +31,7 @@ void ReferenceLists::sort_by_depth(const DepthKey& key_of) {
     std::array<uint32_t, 256> next{};
     for (uint32_t key : keys_) ++next[key >> shift & 255];
     uint32_t running = 0;
-    for (uint32_t& place : next) running += std::exchange(place, running);
+    for (uint32_t& begin : next) running += std::exchange(begin, running);
     for (uint32_t i : order_) scratch_[next[keys_[i] >> shift & 255]++] = i;
     order_.swap(scratch_);
   }

@@ -26,14 +26,14 @@ void RefinementPlanes::build(const BoundsConstants& c) {
   }
 }
 
-void emit_refined(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places,
-                  size_t first_place, size_t count, const BoundsConstants& c, const RefinementPlanes& planes,
+void emit_refined(const VisibleLights& visible, const LightBox* boxes, const uint32_t* indices, size_t first,
+                  size_t count, const BoundsConstants& c, const RefinementPlanes& planes,
                   FroxelPairs& pairs) {
   const FroxelGrid& grid = c.grid;
   const bool orthographic = c.view.orthographic != 0;
   size_t n = 0;
   for (size_t k = 0; k < count; ++k) {
-    const size_t i = places ? places[k] : first_place + k;
+    const size_t i = indices ? indices[k] : first + k;
     const LightBox& box = boxes[i];
     if (box.columns == 0) continue;
     const float x = visible.x[i], y = visible.y[i], z = visible.z[i], radius = visible.radius[i];

@@ -16,9 +16,9 @@ struct RefinementPlanes {
 };
 
 // Writes the pairs of boxes, narrowed; never leaves out a froxel that holds a pixel centre's ray inside the
-// ball. The boxes and their lights are those at places[0..count), or without places at [first, first +
+// ball. The boxes and their lights are those at indices[0..count), or without indices at [first, first +
 // count).
-void emit_refined(const VisibleLights& visible, const LightBox* boxes, const uint32_t* places, size_t first,
+void emit_refined(const VisibleLights& visible, const LightBox* boxes, const uint32_t* indices, size_t first,
                   size_t count, const BoundsConstants& constants, const RefinementPlanes& planes,
                   FroxelPairs& pairs);
 

@@ -24,9 +24,9 @@ class RowSift {
  public:
   RowSift(RowMemory::Levels<Lane>& levels, const FroxelGrid& grid) : m_(levels), grid_(grid) {}
 
-  uint32_t operator()(const LightBox* boxes, const uint32_t* places, size_t count, uint32_t* offsets,
+  uint32_t operator()(const LightBox* boxes, const uint32_t* indices, size_t count, uint32_t* offsets,
                       uint32_t* list) {
-    take(boxes, places, count);
+    take(boxes, indices, count);
     reserve_padded(m_.list, flush + count);
     offsets_ = offsets;
     list_ = list;
@@ -48,7 +48,7 @@ class RowSift {
   static constexpr size_t flush = 4096;
 
   // The boxes as lanes.
-  void take(const LightBox* boxes, const uint32_t* places, size_t count) {
+  void take(const LightBox* boxes, const uint32_t* indices, size_t count) {
     auto& all = m_.all;
     for (auto* lanes : {&all.light, &all.column, &all.columns, &all.row, &all.rows, &all.slice, &all.slices,
                         &m_.slice.light, &m_.slice.column, &m_.slice.columns, &m_.slice.row, &m_.slice.rows,
@@ -56,7 +56,7 @@ class RowSift {
       reserve_padded(*lanes, count);
     taken_ = 0;
     for (size_t i = 0; i < count; ++i) {
-      const LightBox& box = boxes[places ? places[i] : i];
+      const LightBox& box = boxes[indices ? indices[i] : i];
       const uint32_t row = box.first / grid_.columns;
       all.light[taken_] = static_cast<Lane>(box.light);
       all.column[taken_] = static_cast<Lane>(box.first - row * grid_.columns);
@@ -70,19 +70,19 @@ class RowSift {
     end(all.slices, taken_);
   }
 
-  // Behind the last light stand lanes that hold nothing.
+  // Lanes that hold nothing, after the last light.
   void end(std::vector<Lane>& extent, size_t count) { hn::StoreU(hn::Zero(d_), d_, &extent[count]); }
 
-  // Copies some lanes of the first `in` boxes, of those that hold a place along the axis whose first place
-  // and extent are given; returns how many they are. The comparison is unsigned: places before the first are
-  // far beyond the extent.
+  // Copies some lanes of the first `in` boxes, of those that hold a coordinate along the axis whose first
+  // coordinate and extent are given; returns how many they are. The comparison is unsigned: coordinates
+  // before the first are far beyond the extent.
   template <class... Lanes>
   size_t sift(const Boxes& from, size_t in, std::vector<Lane> Boxes::*first, std::vector<Lane> Boxes::*extent,
-              Lane place, Boxes& to, Lanes... lanes) {
-    const V all_place = hn::Set(d_, place);
+              Lane coordinate, Boxes& to, Lanes... lanes) {
+    const V coordinates = hn::Set(d_, coordinate);
     size_t count = 0;
     for (size_t i = 0; i < in; i += hn::Lanes(d_)) {
-      const KeptLanes<Tag> kept(d_, hn::Lt(hn::Sub(all_place, hn::LoadU(d_, &(from.*first)[i])),
+      const KeptLanes<Tag> kept(d_, hn::Lt(hn::Sub(coordinates, hn::LoadU(d_, &(from.*first)[i])),
                                            hn::LoadU(d_, &(from.*extent)[i])));
       (kept.store(hn::LoadU(d_, &(from.*lanes)[i]), &(to.*lanes)[count]), ...);
       count += kept.count();
@@ -128,11 +128,11 @@ class RowSift {
     const Tag d;
     const Lane *light = m_.row.light.data(), *first = m_.row.column.data(), *extent = m_.row.columns.data();
     for_each_froxel([=](Lane column, Lane* to) HWY_ATTR {
-      const V place = hn::Set(d, column);
+      const V coordinate = hn::Set(d, column);
       size_t count = 0;
       for (size_t i = 0; i < in_row; i += hn::Lanes(d)) {
-        const KeptLanes<Tag> kept(d,
-                                  hn::Lt(hn::Sub(place, hn::LoadU(d, first + i)), hn::LoadU(d, extent + i)));
+        const KeptLanes<Tag> kept(
+            d, hn::Lt(hn::Sub(coordinate, hn::LoadU(d, first + i)), hn::LoadU(d, extent + i)));
         kept.store(hn::LoadU(d, light + i), to + count);
         count += kept.count();
       }
@@ -200,14 +200,14 @@ uint32_t row_lanes(size_t light_end, const FroxelGrid& grid) {
   return static_cast<uint32_t>(std::max<size_t>(bytes / lane_bytes(light_end, grid), 1));
 }
 
-uint32_t list_rows(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+uint32_t list_rows(const LightBox* boxes, const uint32_t* indices, size_t count, const FroxelGrid& grid,
                    size_t light_end, RowMemory& memory, uint32_t* offsets, uint32_t* list) {
   const size_t bytes = lane_bytes(light_end, grid);
   if constexpr (compresses_narrow) {
-    if (bytes == 1) return RowSift(memory.levels<uint8_t>(), grid)(boxes, places, count, offsets, list);
-    if (bytes == 2) return RowSift(memory.levels<uint16_t>(), grid)(boxes, places, count, offsets, list);
+    if (bytes == 1) return RowSift(memory.levels<uint8_t>(), grid)(boxes, indices, count, offsets, list);
+    if (bytes == 2) return RowSift(memory.levels<uint16_t>(), grid)(boxes, indices, count, offsets, list);
   }
-  return RowSift(memory.levels<uint32_t>(), grid)(boxes, places, count, offsets, list);
+  return RowSift(memory.levels<uint32_t>(), grid)(boxes, indices, count, offsets, list);
 }
 
 }  // namespace ml::simd::HWY_NAMESPACE
@@ -223,9 +223,9 @@ HWY_EXPORT(list_rows);
 uint32_t row_lanes(size_t light_end, const FroxelGrid& grid) {
   return HWY_DYNAMIC_DISPATCH(row_lanes)(light_end, grid);
 }
-uint32_t list_rows(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+uint32_t list_rows(const LightBox* boxes, const uint32_t* indices, size_t count, const FroxelGrid& grid,
                    size_t light_end, RowMemory& memory, uint32_t* offsets, uint32_t* list) {
-  return HWY_DYNAMIC_DISPATCH(list_rows)(boxes, places, count, grid, light_end, memory, offsets, list);
+  return HWY_DYNAMIC_DISPATCH(list_rows)(boxes, indices, count, grid, light_end, memory, offsets, list);
 }
 
 }  // namespace simd

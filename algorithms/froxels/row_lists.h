@@ -37,14 +37,14 @@ namespace simd {
 // How many lights are sifted at a time when no light's index reaches `light_end`.
 uint32_t row_lanes(size_t light_end, const FroxelGrid& grid);
 // Writes the lights of all froxels one after the other, each froxel's in the order of the boxes
-// boxes[places[0..count)], or without places boxes[0..count), and offsets[0 .. cells]: where each froxel's
-// begin, and the end of the last. `list` has room for all and is written from front to back. Returns the
+// boxes[indices[0..count)], or without indices boxes[0..count), and offsets[0 .. cells]: where each froxel's
+// begin, and the end of the last. `list` has space for all and is written from front to back. Returns the
 // longest list.
-uint32_t list_rows(const LightBox* boxes, const uint32_t* places, size_t count, const FroxelGrid& grid,
+uint32_t list_rows(const LightBox* boxes, const uint32_t* indices, size_t count, const FroxelGrid& grid,
                    size_t light_end, RowMemory& memory, uint32_t* offsets, uint32_t* list);
 }  // namespace simd
 
-// Whether sweeping is cheaper than `pairs` pairs of a froxel and a light: a step of either costs about the
+// Whether list_rows() is cheaper than `pairs` pairs of a froxel and a light: a step of either costs about the
 // same. boxes[0..count) in any order.
 bool rows_are_cheaper(const LightBox* boxes, size_t count, uint64_t pairs, const FroxelGrid& grid,
                       size_t light_end);

@@ -50,28 +50,28 @@ ViewBounds bounds_of_corners(const gpu_data::ViewData& view, const HullCorners& 
   return bounds;
 }
 
-struct Place {
+struct CellRange {
   uint32_t x0, x1, y0, y1, z0, z1;
 };
 
-Place place_of(const LightBox& box, const FroxelGrid& grid) {
+CellRange cells_of(const LightBox& box, const FroxelGrid& grid) {
   const uint32_t x0 = box.first % grid.columns, y0 = box.first / grid.columns % grid.rows,
                  z0 = box.first / grid.columns / grid.rows;
   return {x0, x0 + box.columns - 1, y0, y0 + box.rows - 1, z0, z0 + box.slices - 1};
 }
 
-void put(const Place& place, LightBox& box, const FroxelGrid& grid) {
-  if (place.x0 > place.x1 || place.y0 > place.y1 || place.z0 > place.z1) {
+void put(const CellRange& cells, LightBox& box, const FroxelGrid& grid) {
+  if (cells.x0 > cells.x1 || cells.y0 > cells.y1 || cells.z0 > cells.z1) {
     box = {0, box.light, 0, 0, 0};
     return;
   }
-  box.first = grid.cell(place.x0, place.y0, place.z0);
-  box.columns = static_cast<uint16_t>(place.x1 - place.x0 + 1);
-  box.rows = static_cast<uint16_t>(place.y1 - place.y0 + 1);
-  box.slices = place.z1 - place.z0 + 1;
+  box.first = grid.cell(cells.x0, cells.y0, cells.z0);
+  box.columns = static_cast<uint16_t>(cells.x1 - cells.x0 + 1);
+  box.rows = static_cast<uint16_t>(cells.y1 - cells.y0 + 1);
+  box.slices = cells.z1 - cells.z0 + 1;
 }
 
-// First and last tile whose pixel centres lie between two places in pixels; `low` > `high` for none.
+// First and last tile whose pixel centres lie between two positions in pixels; `low` > `high` for none.
 void narrow(double pixel0, double pixel1, double last_pixel, uint32_t tile, uint32_t& low, uint32_t& high) {
   const double slack = static_cast<double>(widen_pixels) + 0.01;
   pixel0 = std::max(std::ceil(pixel0 - 0.5 - slack), 0.0);
@@ -88,7 +88,7 @@ void narrow(double pixel0, double pixel1, double last_pixel, uint32_t tile, uint
 // Both ends of a capsule as balls: their bounds together hold all between, as long as both are wholly in
 // front.
 bool capsule_box(const BoundsConstants& c, const gpu_data::LightCore& core, const gpu_data::LightExtra& extra,
-                 Place& place, DepthInterval& depth) {
+                 CellRange& cells, DepthInterval& depth) {
   FroxelBox ends[2];
   DepthInterval depths[2];
   for (int end = 0; end < 2; ++end) {
@@ -101,12 +101,12 @@ bool capsule_box(const BoundsConstants& c, const gpu_data::LightCore& core, cons
     // An end outside the picture says nothing of what lies between.
     if (ends[end].empty()) return false;
   }
-  place.x0 = std::max<uint32_t>(place.x0, std::min(ends[0].x0, ends[1].x0));
-  place.x1 = std::min<uint32_t>(place.x1, std::max(ends[0].x1, ends[1].x1));
-  place.y0 = std::max<uint32_t>(place.y0, std::min(ends[0].y0, ends[1].y0));
-  place.y1 = std::min<uint32_t>(place.y1, std::max(ends[0].y1, ends[1].y1));
-  place.z0 = std::max<uint32_t>(place.z0, std::min(ends[0].z0, ends[1].z0));
-  place.z1 = std::min<uint32_t>(place.z1, std::max(ends[0].z1, ends[1].z1));
+  cells.x0 = std::max<uint32_t>(cells.x0, std::min(ends[0].x0, ends[1].x0));
+  cells.x1 = std::min<uint32_t>(cells.x1, std::max(ends[0].x1, ends[1].x1));
+  cells.y0 = std::max<uint32_t>(cells.y0, std::min(ends[0].y0, ends[1].y0));
+  cells.y1 = std::min<uint32_t>(cells.y1, std::max(ends[0].y1, ends[1].y1));
+  cells.z0 = std::max<uint32_t>(cells.z0, std::min(ends[0].z0, ends[1].z0));
+  cells.z1 = std::min<uint32_t>(cells.z1, std::max(ends[0].z1, ends[1].z1));
   depth.low = std::max(depth.low, std::min(depths[0].low, depths[1].low));
   depth.high = std::min(depth.high, std::max(depths[0].high, depths[1].high));
   return true;
@@ -156,30 +156,30 @@ bool hull_corners(const gpu_data::LightCore& core, const gpu_data::LightExtra& e
 void tighten(const BoundsConstants& c, const gpu_data::LightCore& core, const gpu_data::LightExtra& extra,
              LightBox& box, DepthInterval& depth) {
   if (box.columns == 0) return;
-  Place place = place_of(box, c.grid);
+  CellRange cells = cells_of(box, c.grid);
   HullCorners corners;
   if (core.id_shape >> 24 == ML_SHAPE_CAPSULE) {
-    if (!capsule_box(c, core, extra, place, depth)) return;
+    if (!capsule_box(c, core, extra, cells, depth)) return;
   } else {
     if (!hull_corners(core, extra, corners)) return;
     const ViewBounds bounds = bounds_of_corners(c.view, corners, slack(core, extra));
     depth.low = std::max(depth.low, static_cast<float>(bounds.depth.low) * 0.99999f);
     depth.high = std::min(depth.high, static_cast<float>(bounds.depth.high) * 1.00001f);
-    place.z0 = std::max(place.z0, gpu_data::slice_of_depth(depth.low, c.grid.mapping));
-    place.z1 = std::min(place.z1, gpu_data::slice_of_depth(depth.high, c.grid.mapping));
+    cells.z0 = std::max(cells.z0, gpu_data::slice_of_depth(depth.low, c.grid.mapping));
+    cells.z1 = std::min(cells.z1, gpu_data::slice_of_depth(depth.high, c.grid.mapping));
     if (bounds.window_known) {
       auto pixel = [](double window, float edge, float scale) {
         return (window - static_cast<double>(edge)) * static_cast<double>(scale);
       };
       narrow(pixel(bounds.across.low, c.left_edge, c.x_pixels_per_unit),
              pixel(bounds.across.high, c.left_edge, c.x_pixels_per_unit),
-             static_cast<double>(c.last_column_pixel), c.grid.tile, place.x0, place.x1);
+             static_cast<double>(c.last_column_pixel), c.grid.tile, cells.x0, cells.x1);
       narrow(pixel(bounds.up.high, c.top_edge, c.y_pixels_per_unit),
              pixel(bounds.up.low, c.top_edge, c.y_pixels_per_unit), static_cast<double>(c.last_row_pixel),
-             c.grid.tile, place.y0, place.y1);
+             c.grid.tile, cells.y0, cells.y1);
     }
   }
-  put(place, box, c.grid);
+  put(cells, box, c.grid);
 }
 
 }  // namespace ml

@@ -36,4 +36,4 @@ LightCursor cell_begin(uint group, float depth, bool counted) {
 
 #include "shaders/one_run.glsl"
 
-uint run_light(uint place) { return group_indices[place]; }
+uint run_light(uint entry) { return group_indices[entry]; }

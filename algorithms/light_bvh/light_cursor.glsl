@@ -11,7 +11,7 @@ const uint inner_node = 0xffffffffu;
 struct SphereNode {
   vec3 center;   // m
   float radius;  // m
-  uint behind;   // the next node that is not below
+  uint next;     // the next node that is not below
   uint light;    // or inner_node
 };
 
@@ -50,7 +50,7 @@ void sphere_step(inout LightCursor cursor, inout uint light) {
   const vec3 away = node.center - cursor.position;
   const bool hit = dot(away, away) <= node.radius * node.radius;
   if (hit && node.light != inner_node) light = node.light;
-  cursor.node = hit ? cursor.node + 1u : node.behind;
+  cursor.node = hit ? cursor.node + 1u : node.next;
 }
 
 // Two nodes at most, no loop: its iterations would add to those of the caller's (harness/frame/shading_loops.h).

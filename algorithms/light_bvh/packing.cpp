@@ -5,7 +5,7 @@
 namespace ml {
 namespace {
 
-// The ball that holds the balls of these nodes, which stand from place `first` on, around the middle of their
+// The ball that holds the balls of these nodes, which stand from index `first` on, around the middle of their
 // box.
 PackedNode around_balls(std::span<const PackedNode> nodes, uint32_t first) {
   const uint32_t end = first + static_cast<uint32_t>(nodes.size());
@@ -42,7 +42,7 @@ VolumeBox SpherePacking::pack(const SphereTree& tree, uint32_t node) {
   for (uint32_t c = 0; c < n.children; ++c)
     if (visible_below_[n.child[c]] > 0) ++kept, only = n.child[c];
   if (kept == 1) return pack(tree, only);
-  const size_t place = nodes_.size();
+  const size_t index = nodes_.size();
   nodes_.emplace_back();
   VolumeBox box;
   bool first = true;
@@ -52,14 +52,14 @@ VolumeBox SpherePacking::pack(const SphereTree& tree, uint32_t node) {
     box = first ? child : around(box, child);
     first = false;
   }
-  // The children stand behind this node, each where the last one's miss leads.
-  const std::span<const PackedNode> below = std::span(nodes_).subspan(place + 1);
-  PackedNode packed = around_balls(below, static_cast<uint32_t>(place) + 1);
+  // The children stand after this node, each where the last one's miss leads.
+  const std::span<const PackedNode> below = std::span(nodes_).subspan(index + 1);
+  PackedNode packed = around_balls(below, static_cast<uint32_t>(index) + 1);
   if (const PackedNode ball = around_box(box); ball.radius < packed.radius) packed = ball;
   packed.radius = widened(packed.center, static_cast<double>(packed.radius));
   packed.miss = static_cast<uint32_t>(nodes_.size());
   packed.light = packed_inner;
-  nodes_[place] = packed;
+  nodes_[index] = packed;
   return box;
 }
 

@@ -8,7 +8,7 @@
 
 namespace ml {
 
-// 24 bytes, or 32 with padding; the next node after a hit is the one behind it.
+// 24 bytes, or 32 with padding; the next node after a hit is the one after it.
 struct PackedNode {
   glm::vec3 center{0};  // m, camera-relative
   float radius = 0;     // m, widened by what rounding may take

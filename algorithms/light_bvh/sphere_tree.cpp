@@ -180,7 +180,7 @@ void SphereTree::fit(uint32_t node) {
 void SphereTree::follow(const FrameLights& lights) {
   const auto count = static_cast<uint32_t>(lights.count());
   leaf_of_light_.resize(std::max<size_t>(leaf_of_light_.size(), identity_end(lights)), none);
-  // Every leaf gets its light's new place, or none.
+  // Every leaf gets its light's new index, or none.
   uint32_t stay = 0;
   for (uint32_t leaf : leaf_of_light_)
     if (leaf != none) nodes_[leaf].light = gone;
@@ -228,9 +228,9 @@ void SphereTree::refit() {
 void SphereTree::remove(uint32_t leaf) {
   const uint32_t parent = nodes_[leaf].parent;
   Node& p = nodes_[parent];
-  const uint32_t place =
+  const uint32_t slot =
       static_cast<uint32_t>(std::find(p.child.begin(), p.child.begin() + p.children, leaf) - p.child.begin());
-  p.child[place] = p.child[--p.children];
+  p.child[slot] = p.child[--p.children];
   uint32_t dirty = parent;
   if (p.children == 1) {
     // The one child that is left takes the parent's place.
@@ -248,7 +248,7 @@ void SphereTree::remove(uint32_t leaf) {
   for (; dirty != none; dirty = nodes_[dirty].parent) fit(dirty);
 }
 
-// Down from the root: into the child whose surface grows least, until a sibling is cheaper. A node with room
+// Down from the root: into the child whose surface grows least, until a sibling is cheaper. A node with space
 // takes the light as a child, for the price of one more test; a full one, or a leaf, shares a new node with
 // it.
 void SphereTree::insert(uint32_t leaf) {
@@ -264,10 +264,10 @@ void SphereTree::insert(uint32_t leaf) {
       const float cost = around(child, box).area() - child.area();
       if (best == none || cost < best_cost) best = nodes_[node].child[c], best_cost = cost;
     }
-    const bool room = nodes_[node].children < branching_;
+    const bool has_space = nodes_[node].children < branching_;
     // With a leaf it would take a node around both.
     const float price = nodes_[best].light != none ? around(nodes_[best].box, box).area() : best_cost;
-    if (room && !(price < box.area())) {
+    if (has_space && !(price < box.area())) {
       nodes_[node].child[nodes_[node].children++] = leaf;
       nodes_[leaf].parent = node;
       return;

@@ -27,14 +27,14 @@ void CellTrees::build(const FroxelLists& lists, const TreeSettings& settings, Th
   }
   const auto offsets = lists.offsets();
   for (size_t c = 0; c < chunk_count_; ++c) {
-    auto place = [&](size_t chunk) {
+    auto first_cell = [&](size_t chunk) {
       if (chunk == chunk_count_) return cells;
       auto entry = static_cast<uint32_t>(lists.entries().size() * chunk / chunk_count_);
       return static_cast<uint32_t>(std::lower_bound(offsets.begin(), offsets.end() - 1, entry) -
                                    offsets.begin());
     };
-    chunks_[c].first_cell = c == 0 ? 0 : place(c);
-    chunks_[c].end_cell = place(c + 1);
+    chunks_[c].first_cell = c == 0 ? 0 : first_cell(c);
+    chunks_[c].end_cell = first_cell(c + 1);
   }
   threads.for_each(chunk_count_, [&](size_t c) {
     TreeChunk& chunk = chunks_[c];

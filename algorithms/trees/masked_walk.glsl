@@ -5,8 +5,9 @@
 #ifndef ML_MASKED_WALK_GLSL
 #define ML_MASKED_WALK_GLSL
 
-// Place of a node after the root of a full binary tree that is stored depth first (algorithms/trees/tree_chunk.h).
-uint depth_first_place(uint height, uint level, uint index) {
+// Index of a node, counted from the root, in a full binary tree that is stored depth first
+// (algorithms/trees/tree_chunk.h).
+uint depth_first_index(uint height, uint level, uint index) {
   return level + (index << (height - level + 1u)) - uint(bitCount(index));
 }
 
@@ -17,11 +18,11 @@ uint nodes_hit(LightCursor cursor, uint height, uint level, uint index, uint cou
   const uint lanes = min(subgroup_lanes(), 8u), lane = gl_SubgroupInvocationID;
   uint hits = 0u, first = 0u;
   do {
-    const uint own = first + lane, place = cursor.node + depth_first_place(height, level, index + own);
-    const bool exists = lane < lanes && own < count && place < cursor.end;
+    const uint own = first + lane, stored = cursor.node + depth_first_index(height, level, index + own);
+    const bool exists = lane < lanes && own < count && stored < cursor.end;
     float low = any_depth, high = -any_depth;
     if (exists) {
-      const TreeNode node = tree_node(place);
+      const TreeNode node = tree_node(stored);
       low = node.low;
       high = node.high;
     }
@@ -73,7 +74,7 @@ uvec2 merged_leaves(LightCursor cursor, uint height, bool here) {
   return uvec2(subgroup_or(mask.x), subgroup_or(mask.y));
 }
 
-// Goes on to the next leaves that pixels of the subgroup hit, or behind the tree. A tree of more leaves is one subtree
+// Goes on to the next leaves that pixels of the subgroup hit, or past the tree. A tree of more leaves is one subtree
 // of 64 after another; of these, and of the nodes above them, those that no pixel hits are left out with all that is
 // below.
 uint masked_runs(inout LightCursor cursor, bool here) {

@@ -68,7 +68,7 @@ void ReferenceTrees::build_tree(const ReferenceLists& lists, uint32_t cell, uint
     tables_.push_back(std::move(table));
   }
   const size_t first = nodes_.size();
-  for (uint32_t place : tables_[height]) append(tree_[place]);
+  for (uint32_t index : tables_[height]) append(tree_[index]);
   if (trim)
     while (nodes_.size() > first && nodes_.back().low > nodes_.back().high) nodes_.pop_back();
 }
@@ -89,9 +89,9 @@ void ReferenceTrees::build(const ReferenceLists& lists, const TreeSettings& sett
       continue;
     } else {
       // Where one leaf cannot count a list's lights, each part is as many of its leaves as one can.
-      const uint32_t most = ML_TREE_MAX_LEAF_LIGHTS / per_leaf * per_leaf;
-      for (uint32_t part = 0; part < count; part += most) {
-        Node node{infinity, -infinity, begin + part, std::min(count - part, most), 1, true};
+      const uint32_t max_part = ML_TREE_MAX_LEAF_LIGHTS / per_leaf * per_leaf;
+      for (uint32_t part = 0; part < count; part += max_part) {
+        Node node{infinity, -infinity, begin + part, std::min(count - part, max_part), 1, true};
         for (uint32_t i = 0; i < node.lights; ++i) {
           const DepthInterval light = lists.depth_of_rank()[lists.entries()[begin + part + i]];
           node.low = std::min(node.low, light.low);

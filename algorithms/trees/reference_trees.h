@@ -33,7 +33,7 @@ class ReferenceTrees {
 
   std::vector<FroxelGrid::DepthRange> cell_depths_;
   std::vector<std::vector<uint32_t>>
-      tables_;              // [height]: place in breadth-first order of each depth-first node
+      tables_;              // [height]: of each node in depth-first order, its breadth-first index
   std::vector<Node> tree_;  // breadth first
   std::vector<gpu_data::TreeCell> cells_;
   std::vector<uint32_t> lights_;

@@ -1,5 +1,5 @@
-// What light trees and the hybrid have in common beside their shaders: prepare() of trees behind the
-// interface, and the entry of the registry.
+// What light trees and the hybrid have in common beside their shaders: prepare() and the entry of the
+// registry.
 #pragma once
 
 #include "algorithms/trees/tree_prepare.h"
@@ -38,7 +38,7 @@ class TreeAlgorithm : public Algorithm {
 // How pixels walk a tree: `walk`, with the masked walk beside those of lists.
 ParameterInfo tree_walk_parameter();
 
-// Name, paper and stages; the parameters of trees behind those of the grid.
+// Name, paper and stages; the parameters of trees after those of the grid.
 AlgorithmEntry tree_entry(const std::string& name, const std::string& summary,
                           std::vector<ParameterInfo> grid);
 

@@ -73,12 +73,12 @@ struct StepSum {
   VI lanes;
   // Every part is in two lanes, at most 2^20 in each: after this many parts all lanes together hold no more
   // than 2^31.
-  static constexpr uint32_t most = 1024;
+  static constexpr uint32_t max_parts = 1024;
   uint32_t added = 0;
   uint64_t sum = 0;
   HWY_INLINE StepSum() : lanes(hn::Zero(ds)) {}
   HWY_INLINE void reserve(uint32_t parts) {
-    if (added + parts > most) flush();
+    if (added + parts > max_parts) flush();
     added += parts;
   }
   HWY_INLINE void flush() {
@@ -86,7 +86,7 @@ struct StepSum {
     lanes = hn::Zero(ds);
     added = 0;
   }
-  // Rounded by an addition that leaves no bits behind the point: in [0, 2^22), to the nearest, ties to even.
+  // Rounded by an addition that leaves no bits after the point: in [0, 2^22), to the nearest, ties to even.
   HWY_INLINE void add(VF steps) {
     const float point = 12582912.0f;
     const VI rounded = hn::BitCast(ds, hn::Add(steps, hn::Set(df, point)));
@@ -111,7 +111,7 @@ HWY_INLINE DepthReach largest(D d, hn::Vec<D> pairs) {
 }
 
 // The same, pairs side by side in the lanes: with the low end negated both ends are treated alike. Whole
-// vectors are read, what is behind the last light in vain.
+// vectors are read, what is past the last light in vain.
 template <bool summed>
 HWY_INLINE DepthReach leaf_reach(const DepthReach* reaches, uint32_t count, DepthReach clip, float steps,
                                  StepSum& sum) {
@@ -166,9 +166,9 @@ HWY_INLINE void collect(std::span<const uint32_t> lights, size_t count, const De
 HWY_INLINE size_t write_list(const DepthReach* bounds, uint32_t lights, uint32_t first, uint32_t per_leaf,
                              TreeNode* nodes) {
   size_t count = 0;
-  const uint32_t most = ML_TREE_MAX_LEAF_LIGHTS / per_leaf * per_leaf;
-  for (uint32_t begin = 0; begin < lights; begin += most) {
-    const uint32_t part = std::min(lights - begin, most);
+  const uint32_t max_part = ML_TREE_MAX_LEAF_LIGHTS / per_leaf * per_leaf;
+  for (uint32_t begin = 0; begin < lights; begin += max_part) {
+    const uint32_t part = std::min(lights - begin, max_part);
     DepthReach all = nothing;
     for (uint32_t leaf = begin / per_leaf; leaf * per_leaf < begin + part; ++leaf)
       all = either(all, bounds[leaf]);
@@ -183,21 +183,21 @@ void write_padding(uint32_t height, uint32_t lights, uint32_t per_leaf, TreeNode
     const uint32_t used = (lights - 1) / (per_leaf << (height - level)) + 1;
     const uint32_t word = packed(level == height, 0, (2u << (height - level)) - 1);
     for (uint32_t index = used; index < 1u << level; ++index)
-      nodes[depth_first_place(height, level, index)] = node_of(nothing, 0, word);
+      nodes[depth_first_index(height, level, index)] = node_of(nothing, 0, word);
   }
 }
 
 // Bottom-up from the leaves' bounds, every level from the one below it and in its place; each node goes to
-// its depth-first place. Of `bounds` there is one more than leaves. Returns the number of nodes.
+// its depth-first index. Of `bounds` there is one more than leaves. Returns the number of nodes.
 HWY_INLINE size_t write_tree(DepthReach* bounds, uint32_t lights, uint32_t first, uint32_t per_leaf,
                              bool trim, TreeNode* nodes) {
   uint32_t used = (lights + per_leaf - 1) / per_leaf;
   const uint32_t leaves = std::bit_ceil(used);
   const auto height = static_cast<uint32_t>(std::countr_zero(leaves));
   ML_DCHECK_LE(leaves, ML_TREE_MAX_LEAVES);
-  const size_t trimmed = depth_first_place(height, height, used - 1) + 1;
+  const size_t trimmed = depth_first_index(height, height, used - 1) + 1;
   for (uint32_t leaf = 0; leaf < used; ++leaf)
-    nodes[depth_first_place(height, height, leaf)] =
+    nodes[depth_first_index(height, height, leaf)] =
         node_of(bounds[leaf], first + leaf * per_leaf, packed(true, per_leaf, 1));
   nodes[trimmed - 1].packed = packed(true, lights - (used - 1) * per_leaf, 1);
   uint32_t lights_below = per_leaf;
@@ -208,9 +208,9 @@ HWY_INLINE size_t write_tree(DepthReach* bounds, uint32_t lights, uint32_t first
     used = (used + 1) / 2;
     for (uint32_t index = 0; index < used; ++index) {
       bounds[index] = either(bounds[2 * index], bounds[2 * index + 1]);
-      nodes[depth_first_place(height, level, index)] = node_of(bounds[index], lights_below, word);
+      nodes[depth_first_index(height, level, index)] = node_of(bounds[index], lights_below, word);
     }
-    nodes[depth_first_place(height, level, used - 1)].first_or_below = lights - (used - 1) * lights_below;
+    nodes[depth_first_index(height, level, used - 1)].first_or_below = lights - (used - 1) * lights_below;
   }
   if (trim) return trimmed;
   write_padding(height, lights, per_leaf, nodes);
@@ -219,7 +219,7 @@ HWY_INLINE size_t write_tree(DepthReach* bounds, uint32_t lights, uint32_t first
 
 // A row of cells, whose lists begin at the offsets, as lists.
 struct ListRow {
-  uint32_t longest = 0;  // the most lights of a cell
+  uint32_t longest = 0;  // the largest number of lights in a cell
   uint32_t filled = 0;   // cells with lights
 };
 HWY_INLINE ListRow write_lists(const uint32_t* offsets, uint32_t count, TreeCell* cells) {
@@ -227,18 +227,18 @@ HWY_INLINE ListRow write_lists(const uint32_t* offsets, uint32_t count, TreeCell
   const hn::CappedTag<uint32_t, 8> du;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
   const auto flag = hn::Set(du, ML_TREE_CELL_LIST);
-  auto most = hn::Zero(du), filled = hn::Zero(du);
+  auto longest = hn::Zero(du), filled = hn::Zero(du);
   uint32_t c = 0;
   for (; c + lanes <= count; c += lanes) {
     const auto first = hn::LoadU(du, offsets + c);
     const auto lights = hn::Sub(hn::LoadU(du, offsets + c + 1), first);
     const auto empty = hn::Eq(lights, hn::Zero(du));
-    most = hn::Max(most, lights);
+    longest = hn::Max(longest, lights);
     filled = hn::Add(filled, hn::IfThenZeroElse(empty, hn::Set(du, 1)));
     hn::StoreInterleaved2(hn::IfThenZeroElse(empty, first), hn::IfThenZeroElse(empty, hn::Or(lights, flag)),
                           du, &cells[c].first);
   }
-  ListRow row{hn::GetLane(hn::MaxOfLanes(du, most)), hn::GetLane(hn::SumOfLanes(du, filled))};
+  ListRow row{hn::GetLane(hn::MaxOfLanes(du, longest)), hn::GetLane(hn::SumOfLanes(du, filled))};
   for (; c < count; ++c) {
     const uint32_t lights = offsets[c + 1] - offsets[c];
     row.longest = std::max(row.longest, lights);

@@ -23,10 +23,10 @@ struct TreeSettings {
   // The mean is of extents clipped to the cell, as in listing 2; false: of whole ones, as in the authors'
   // code, each counted as at most max_extents of the cell's.
   bool clipped = true;
-  // Leave out the nodes behind the last leaf that has lights: only padding.
+  // Leave out the nodes after the last leaf that has lights: only padding.
   bool trim_padding = true;
   // Lists are trees of one node, as in the paper (section 3.4), or several one after the other where a leaf
-  // cannot count them; else a list's place stands in its cell.
+  // cannot count them; else its cell says where a list is.
   bool list_nodes = false;
   // Cells of no more lights are lists whatever their depths.
   uint32_t short_list() const { return std::max(lights_per_leaf, list_lights); }
@@ -34,7 +34,7 @@ struct TreeSettings {
 
 struct TreeChunk {
   uint32_t first_cell = 0, end_cell = 0;
-  gpu_data::TreeNode* nodes = nullptr;  // room for node_capacity() of them
+  gpu_data::TreeNode* nodes = nullptr;  // space for node_capacity() of them
   size_t count = 0;                     // of nodes written
   uint64_t first_node = 0;              // of all nodes
   uint64_t list_cells = 0, tree_cells = 0;
@@ -46,7 +46,7 @@ struct TreeChunk {
 };
 
 namespace simd {
-// Builds the cells of the chunk into cells[cell]; nodes are numbered by their place in chunk.nodes.
+// Builds the cells of the chunk into cells[cell]; nodes are numbered by their index in chunk.nodes.
 // `cell_depths`: of each slice (cell_depth_extents()).
 void build_chunk(const FroxelLists& lists, const TreeSettings& settings,
                  std::span<const FroxelGrid::DepthRange> cell_depths, gpu_data::TreeCell* cells,
@@ -71,11 +71,11 @@ inline uint64_t node_capacity(const TreeSettings& settings, std::span<const uint
          (settings.list_nodes ? offsets.size() : 0);
 }
 
-// Place of a node in a full binary tree of 2^height leaves stored depth first: node `index` of level `level`
+// Index of a node in a full binary tree of 2^height leaves stored depth first: node `index` of level `level`
 // (the root is level 0). Before it stand its ancestors and the whole subtrees to their left: for every set
 // bit of the index one of 2^(height - level + bit + 1) - 1 nodes. Always inlined, for the instructions of the
 // caller's target.
-[[gnu::always_inline]] inline uint32_t depth_first_place(uint32_t height, uint32_t level, uint32_t index) {
+[[gnu::always_inline]] inline uint32_t depth_first_index(uint32_t height, uint32_t level, uint32_t index) {
   return level + (index << (height - level + 1)) - static_cast<uint32_t>(std::popcount(index));
 }
 
@@ -88,8 +88,8 @@ void cell_depth_extents(const FroxelGrid& grid, std::vector<FroxelGrid::DepthRan
 inline float extent_steps(FroxelGrid::DepthRange extent) {
   return extent.high > extent.low ? 65536.0f / (extent.high - extent.low) : 0.0f;
 }
-// 16 steps of the sum have room in what is added in single precision, and a mean beyond is a list by any
-// threshold that chooses.
+// An extent of 16 cells, in the steps of the sum, can be added in single precision, and a cell whose mean is
+// beyond that is a list by any threshold that chooses.
 inline constexpr float max_extents = 16;
 // Whether the mean of `lights` extents, which sum up to `sum` steps, is below the threshold.
 inline bool is_tree(uint64_t sum, uint32_t lights, float threshold) {

@@ -7,7 +7,7 @@ ML_NAMESPACE_BEGIN
 
 struct TreeNode {
   float low, high;  // m, view depths between which a light below may reach a surface point; low > high: never
-  // Leaf: place of its first light in the list of lights. Inner node: how many lights are below it (for
+  // Leaf: index of its first light in the list of lights. Inner node: how many lights are below it (for
   // statistics; the listing's first light is never read there).
   uint first_or_below;
   // leaf flag 1 bit | lights of the leaf 16 bits | skip 15 bits: nodes from this one to the next that is not
@@ -18,8 +18,8 @@ ML_SIZE(TreeNode, 16);
 
 // What a cell holds: nothing (0, 0), a tree, or a list that needs no node.
 struct TreeCell {
-  uint first;  // tree: its first node; list: place of its first light in the list of lights
-  uint end;    // tree: the first node behind it; list: ML_TREE_CELL_LIST | how many lights
+  uint first;  // tree: its first node; list: index of its first light in the list of lights
+  uint end;    // tree: the first node past it; list: ML_TREE_CELL_LIST | how many lights
 };
 ML_SIZE(TreeCell, 8);
 #define ML_TREE_CELL_LIST 0x80000000u

@@ -20,14 +20,14 @@ TreeNode* map_nodes(UploadMemory& memory, uint64_t nodes) {
 }
 
 // Where a single thread can build the nodes so that none has to be copied, or null. How many they will be is
-// not known yet, so there must be room for the most.
+// not known yet, so the capacity is for the largest number possible.
 TreeNode* nodes_in_place(UploadMemory& memory, const FroxelLists& lists, const TreeSettings& trees,
                          const Threads& threads) {
   if (threads.count() > 1) return nullptr;
   map_nodes(memory, 0);
-  const uint64_t room = CellTrees::capacity(lists, trees);
-  if (!memory.cached(nodes_slot) || room * sizeof(TreeNode) > memory.limit()) return nullptr;
-  return map_nodes(memory, room);
+  const uint64_t capacity = CellTrees::capacity(lists, trees);
+  if (!memory.cached(nodes_slot) || capacity * sizeof(TreeNode) > memory.limit()) return nullptr;
+  return map_nodes(memory, capacity);
 }
 
 }  // namespace
@@ -91,8 +91,8 @@ std::vector<ParameterInfo> tree_parameters() {
       ParameterInfo::integer("lights_per_leaf", 8, 1, 64,
                              "lights in a leaf; raised where a tree would have more than 2048 leaves"),
       ParameterInfo::choice("lists", "cell", {"cell", "node"},
-                            "a list's place stands in its cell, or in a tree of one node (section 3.4)"),
-      ParameterInfo::boolean("trim_padding", true, "leave out the nodes behind a tree's last light"),
+                            "its cell says where a list is, or a tree of one node does (section 3.4)"),
+      ParameterInfo::boolean("trim_padding", true, "leave out the nodes after a tree's last light"),
       ParameterInfo::choice("node_depths", "chord", {"chord", "ball"},
                             "with ball_test nodes hold the depths at which balls are met in the cell's "
                             "tile; or those of whole lights, as in the paper"),

@@ -15,7 +15,7 @@ QUADS(TreeCellsQuads, 17);
 QUADS(TreeNodesQuads, 18);
 layout(scalar, binding = 19) readonly buffer Indices { uint tree_lights[]; };
 
-uint run_light(uint place) { return index_of(tree_lights[index_word(place)], place); }
+uint run_light(uint entry) { return index_of(tree_lights[index_word(entry)], entry); }
 
 TreeCell tree_cell(uint cell) {
   if (!TEXEL_FETCH) return tree_cells[cell];
@@ -23,17 +23,17 @@ TreeCell tree_cell(uint cell) {
   return (cell & 1u) != 0u ? TreeCell(two.z, two.w) : TreeCell(two.x, two.y);
 }
 
-TreeNode tree_node(uint place) {
-  if (!TEXEL_FETCH) return tree_nodes[place];
-  const uvec4 words = texelFetch(TreeNodesQuads, int(place));
+TreeNode tree_node(uint index) {
+  if (!TEXEL_FETCH) return tree_nodes[index];
+  const uvec4 words = texelFetch(TreeNodesQuads, int(index));
   return TreeNode(uintBitsToFloat(words.x), uintBitsToFloat(words.y), words.z, words.w);
 }
 
 const float any_depth = 3.4e38;  // m, more than any
 
 struct LightCursor {
-  uint node, end;   // the next node, and the first behind the tree
-  uint next, last;  // lights of the leaf that is walked: the next, and the first behind
+  uint node, end;   // the next node, and the first past the tree
+  uint next, last;  // lights of the leaf that is walked: the next, and the first past it
   float depth;      // m, of the pixel
   // A subgroup that walks together: the run of lights that this lane found, and the depths at which it shines.
   uint run_first, run_count;
@@ -45,11 +45,11 @@ struct LightCursor {
 
 // `counted`: the pixel itself walks the tree, and does not only help.
 LightCursor cell_begin(uint cell, float depth, bool counted) {
-  const TreeCell place = tree_cell(cell);
-  const bool list = !HAS_TREES || (place.end & ML_TREE_CELL_LIST) != 0u;
+  const TreeCell stored = tree_cell(cell);
+  const bool list = !HAS_TREES || (stored.end & ML_TREE_CELL_LIST) != 0u;
   // A list is at once what a tree's walk finds in a leaf.
-  const uint node = list ? 0u : place.first, end = list ? 0u : place.end;
-  const uint next = list ? place.first : 0u, last = list ? place.first + (place.end & ~ML_TREE_CELL_LIST) : 0u;
+  const uint node = list ? 0u : stored.first, end = list ? 0u : stored.end;
+  const uint next = list ? stored.first : 0u, last = list ? stored.first + (stored.end & ~ML_TREE_CELL_LIST) : 0u;
   // To the masked walk a list is one leaf.
   LightCursor cursor =
       LightCursor(node, end, next, last, depth, next, last - next, -any_depth, any_depth, last - next, 1u, 0u);
@@ -130,11 +130,11 @@ bool some_depth_in(float low, float high, float depth, bool here) {
 // A subgroup that walks together takes as many nodes at once as it has lanes, one each, and with them every leaf that
 // holds a pixel's depth. All nodes above such a leaf hold it too, so leaves tell alone; of the others those that are
 // missed tell how far the next nodes can be left out. Adds what it finds to `runs`; ends with the first that are there,
-// or behind the tree.
+// or past the tree.
 void tree_runs(inout LightCursor cursor, bool here, inout uint runs) {
   const uint lanes = min(subgroup_lanes(), 32u), lane = gl_SubgroupInvocationID;
   do {
-    const uint own = cursor.node + lane, behind = cursor.node + lanes;
+    const uint own = cursor.node + lane, after = cursor.node + lanes;
     const bool exists = lane < lanes && own < cursor.end;
     if (here) COUNT_NODES(min(max(cursor.end, cursor.node) - cursor.node, lanes));
     TreeNode node = TreeNode(any_depth, -any_depth, 0u, 0u);
@@ -148,10 +148,10 @@ void tree_runs(inout LightCursor cursor, bool here, inout uint runs) {
       cursor.run_high = node.high;
     }
     runs |= subgroup_ballot(hit && leaf);
-    // The first missed node whose nodes go on behind these is above all others of the kind.
+    // The first missed node whose nodes go on past these is above all others of the kind.
     const uint next = own + tree_skip(node);
-    const uint jumps = subgroup_ballot(exists && !hit && next > behind);
-    cursor.node = jumps != 0u ? subgroupShuffle(next, uint(findLSB(jumps))) : behind;
+    const uint jumps = subgroup_ballot(exists && !hit && next > after);
+    cursor.node = jumps != 0u ? subgroupShuffle(next, uint(findLSB(jumps))) : after;
   } while (runs == 0u && cursor.node < cursor.end);
 }
 

@@ -17,16 +17,16 @@ struct Condition {
 };
 
 // In the axes of the box.
-glm::dvec3 place_in_box(const OracleLight& light, const glm::dvec3& from_centre) {
+glm::dvec3 position_in_box(const OracleLight& light, const glm::dvec3& from_centre) {
   return {glm::dot(from_centre, light.side), glm::dot(from_centre, glm::cross(light.direction, light.side)),
           glm::dot(from_centre, light.direction)};
 }
 
-Condition inside_box(const OracleLight& light, const glm::dvec3& place) {
+Condition inside_box(const OracleLight& light, const glm::dvec3& position) {
   bool inside = true, possible = true, near = false;
   for (int axis = 0; axis < 3; ++axis) {
-    double extent = light.half_extents[axis], beyond = std::abs(place[axis]) - extent;
-    bool at_face = std::abs(beyond) <= margin * std::max(extent, glm::length(place));
+    double extent = light.half_extents[axis], beyond = std::abs(position[axis]) - extent;
+    bool at_face = std::abs(beyond) <= margin * std::max(extent, glm::length(position));
     inside = inside && beyond < 0;
     possible = possible && (beyond < 0 || at_face);
     near = near || at_face;
@@ -54,9 +54,9 @@ Sight see(const SurfacePoint& point, const OracleLight& light) {
   sight.blur = lever > 0 ? margin * (1 + lever / distance) : margin;
   sight.window = window_range(sight.source, light, from_centre);
   if (light.box) {
-    const glm::dvec3 place = place_in_box(light, from_centre);
-    sight.falloff = oracle_box_falloff(place, light.half_extents);
-    sight.in_reach = inside_box(light, place);
+    const glm::dvec3 position = position_in_box(light, from_centre);
+    sight.falloff = oracle_box_falloff(position, light.half_extents);
+    sight.in_reach = inside_box(light, position);
   } else {
     sight.falloff = oracle_falloff(distance, light.radius);
     sight.in_reach = {sight.falloff > 0,
@@ -67,7 +67,7 @@ Sight see(const SurfacePoint& point, const OracleLight& light) {
   return sight;
 }
 
-// Whether a point at this place is clearly farther away than the light reaches.
+// Whether a point at this position is clearly farther away than the light reaches.
 bool out_of_reach(const SurfacePoint& point, const OracleLight& light) {
   const double reach = (light.box ? glm::length(light.half_extents) : light.radius) + light.half_length;
   const double distance = glm::length(point.position - light.position);
@@ -96,14 +96,14 @@ double oracle_falloff(double distance, double radius) {
   return window * window / std::max(distance * distance, 1e-4);
 }
 
-double oracle_box_falloff(const glm::dvec3& place, const glm::dvec3& half_extents) {
+double oracle_box_falloff(const glm::dvec3& position, const glm::dvec3& half_extents) {
   double window = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    double l = std::abs(place[axis]), h = half_extents[axis];
+    double l = std::abs(position[axis]), h = half_extents[axis];
     if (!(l < h)) return 0;
     window *= std::max(0.0, 1 - std::pow(l / h, 4));
   }
-  return window * window / std::max(glm::dot(place, place), 1e-4);
+  return window * window / std::max(glm::dot(position, position), 1e-4);
 }
 
 double oracle_cone(const OracleLight& light, double cosine) {

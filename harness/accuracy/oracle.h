@@ -56,7 +56,7 @@ struct OracleAnswer {
   glm::dvec3 radiance{0};
   uint32_t contributing = 0;
   // Lights so near to the edge of contributing (distance within 1e-5 of the radius, cosine within 1e-5 of 0
-  // or of the cone's edge, relative; a place within 1e-5 of a box's face) that single precision may decide
+  // or of the cone's edge, relative; a position within 1e-5 of a box's face) that single precision may decide
   // otherwise; they count in `contributing` by the double answer. Near a long segment the margins grow as the
   // distance along it to the distance from it, for single precision knows the offset only within its rounding
   // of the longer one; and nowhere are they less than what rounding may take (rounding.h). A light that
@@ -75,9 +75,9 @@ OracleAnswer oracle_shade(const SurfacePoint& point, std::span<const OracleLight
 // max(d^2, 1e-4 m^2). Window: B. Karis, "Real Shading in Unreal Engine 4", 2013.
 double oracle_falloff(double distance, double radius);
 
-// The same for a box: the product of (1 - (l/h)^4)^2 over the axes for `place` l in the box's axes, exactly 0
-// at and outside its faces and for an extent of 0.
-double oracle_box_falloff(const glm::dvec3& place, const glm::dvec3& half_extents);
+// The same for a box: the product of (1 - (l/h)^4)^2 over the axes for `position` l in the box's axes,
+// exactly 0 at and outside its faces and for an extent of 0.
+double oracle_box_falloff(const glm::dvec3& position, const glm::dvec3& half_extents);
 
 // clamp((limit - (1 - cosine)) * scale, 0, 1)^2; 1 for lights that are no spots.
 // `cosine`: between the spot's axis and the direction from the light to the point.

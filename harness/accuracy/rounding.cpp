@@ -17,10 +17,10 @@ double squared(double x) {
   return x * x;
 }
 
-// 1 - (l/h)^4 for l in `place`, which is a distance.
-Range edge_window(const Range& place, double extent) {
-  const double low = squared(place.low / extent) * (1 - 8 * u),
-               high = squared(place.high / extent) * (1 + 8 * u);
+// 1 - (l/h)^4 for l in `coordinate`, which is not negative.
+Range edge_window(const Range& coordinate, double extent) {
+  const double low = squared(coordinate.low / extent) * (1 - 8 * u),
+               high = squared(coordinate.high / extent) * (1 + 8 * u);
   return {std::max(0.0, 1 - squared(high) - 2 * u), std::clamp(1 - squared(low) + 2 * u, 0.0, 1.0)};
 }
 
@@ -28,10 +28,11 @@ Range box_window(const OracleLight& light, const glm::dvec3& from_centre, double
   const glm::dvec3 axes[] = {light.side, glm::cross(light.direction, light.side), light.direction};
   Range window{1, 1};
   for (int axis = 0; axis < 3; ++axis) {
-    const double place = std::abs(glm::dot(from_centre, axes[axis])), extent = light.half_extents[axis];
+    const double coordinate = std::abs(glm::dot(from_centre, axes[axis])), extent = light.half_extents[axis];
     if (!(extent > 0)) return {};
-    window = (window * edge_window(Range::around(place, error, 0, place + error), extent)).widened(2 * u);
-    if (place - error >= extent) window = {};
+    window = (window * edge_window(Range::around(coordinate, error, 0, coordinate + error), extent))
+                 .widened(2 * u);
+    if (coordinate - error >= extent) window = {};
   }
   return window;
 }
@@ -45,10 +46,10 @@ SourceSight see_source(const SurfacePoint& point, const OracleLight& light, cons
   sight.distance = glm::length(offset);
   // The point's coordinates come from its depth; their differences from the light's are rounded, and so is
   // the foot on a segment, which is found by products of the longer vector.
-  const glm::dvec3 place = glm::abs(point.position);
+  const glm::dvec3 magnitude = glm::abs(point.position);
   const double whole = glm::length(from_centre) + std::abs(along);
   sight.distance_error =
-      u * std::max({place.x, place.y, place.z}) + (light.half_length > 0 ? 8 : 1) * u * whole;
+      u * std::max({magnitude.x, magnitude.y, magnitude.z}) + (light.half_length > 0 ? 8 : 1) * u * whole;
   const bool touching = sight.distance < coincident;
   sight.to_light = touching ? point.normal : offset / sight.distance;
   sight.rotation = touching ? normal_error : sight.distance_error / sight.distance + 2 * u;

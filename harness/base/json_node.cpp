@@ -40,7 +40,7 @@ Node Node::member(const std::string& key) const {
 }
 
 void Node::fail(const std::string& what) const {
-  throw UsageError(place() + ": " + what);
+  throw UsageError(where() + ": " + what);
 }
 
 void Node::expected(const std::string& what) const {
@@ -51,10 +51,10 @@ void Node::object() const {
   if (!json_->is_object()) expected("an object");
 }
 
-size_t Node::list(size_t least, size_t most) const {
-  if (json_->is_array() && json_->size() >= least && json_->size() <= most) return json_->size();
-  expected(least == most ? fmt::format("a list of {}", least)
-                         : fmt::format("a list of {} to {}", least, most));
+size_t Node::list(size_t min_length, size_t max_length) const {
+  if (json_->is_array() && json_->size() >= min_length && json_->size() <= max_length) return json_->size();
+  expected(min_length == max_length ? fmt::format("a list of {}", min_length)
+                                    : fmt::format("a list of {} to {}", min_length, max_length));
 }
 
 int64_t Node::integer(int64_t minimum, int64_t maximum) const {
@@ -83,7 +83,7 @@ bool Node::boolean() const {
   return json_->get<bool>();
 }
 
-std::string Node::text(size_t least_letters, size_t max_letters) const {
+std::string Node::text(size_t min_letters, size_t max_letters) const {
   if (!json_->is_string()) expected("a text");
   std::string text = json_->get<std::string>();
   size_t letters = 0;
@@ -92,8 +92,8 @@ std::string Node::text(size_t least_letters, size_t max_letters) const {
     if (byte < 0x20 || byte == 0x7f) fail("control characters and line breaks are not allowed in a text");
     letters += (byte & 0xc0) != 0x80;
   }
-  if (letters < least_letters || letters > max_letters) {
-    expected(fmt::format("a text of {} to {} letters", least_letters, max_letters));
+  if (letters < min_letters || letters > max_letters) {
+    expected(fmt::format("a text of {} to {} letters", min_letters, max_letters));
   }
   return text;
 }

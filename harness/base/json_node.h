@@ -25,7 +25,7 @@ class Node {
   const nlohmann::json& json() const { return *json_; }
   const Source& source() const { return *source_; }
   const std::string& path() const { return path_; }
-  std::string place() const { return source_->name + ": " + path_; }
+  std::string where() const { return source_->name + ": " + path_; }
 
   Node item(size_t index) const {
     return {(*json_)[index], *source_, path_ + "[" + std::to_string(index) + "]"};
@@ -40,13 +40,13 @@ class Node {
 
   // Typed values; each throws when the value is another.
   void object() const;
-  size_t list(size_t least, size_t most) const;  // its length
+  size_t list(size_t min_length, size_t max_length) const;  // its length
   int64_t integer(int64_t minimum, int64_t maximum) const;
   uint32_t unsigned_integer(uint32_t minimum, uint32_t maximum) const;
   double real(double minimum, double maximum) const;
   bool boolean() const;
   // Without control characters.
-  std::string text(size_t least_letters, size_t max_letters) const;
+  std::string text(size_t min_letters, size_t max_letters) const;
   // Index of the word among `names`.
   size_t choice(const std::vector<std::string>& names) const;
 

@@ -42,7 +42,7 @@ class Builder : public json::json_sax_t {
   }
 
  private:
-  // Puts a value where the parser is, and returns its place.
+  // Puts a value where the parser is, and returns a pointer to it.
   template <typename Value>
   json* put(Value&& value) {
     if (open_.empty()) {

@@ -15,7 +15,7 @@ inline constexpr size_t json_depth_limit = 32;
 // "SOURCE: $.a.b: ..." for a key that an object has twice and for nesting beyond the limit.
 nlohmann::json parse_json_text(std::string_view text, const std::string& source);
 
-// ".key", or "['odd key']", to be put behind a JSON path; long keys are cut.
+// ".key", or "['odd key']", to be appended to a JSON path; long keys are cut.
 std::string json_path_key(std::string_view key);
 
 }  // namespace ml

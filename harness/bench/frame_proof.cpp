@@ -52,7 +52,7 @@ ReferenceProof prove_reference(ShadedAlgorithm& brute_force, const FrameTruth& t
                                const std::vector<glm::u16vec2>& blocks) {
   DeviceFrame& frame = truth.frame();
   Spans spans;
-  brute_force.prepare(truth.input(), spans, frame.occupied_blocks().places());
+  brute_force.prepare(truth.input(), spans, frame.occupied_blocks().positions());
   if (blocks.empty())
     brute_force.count(frame, truth.input());
   else
@@ -74,7 +74,7 @@ ReferenceProof prove_reference(ShadedAlgorithm& brute_force, const FrameTruth& t
 FrameProof prove_frame(ShadedAlgorithm& algorithm, const FrameTruth& truth) {
   DeviceFrame& frame = truth.frame();
   const FrameInput& input = truth.input();
-  const std::span<const glm::u16vec2> occupied = frame.occupied_blocks().places();
+  const std::span<const glm::u16vec2> occupied = frame.occupied_blocks().positions();
   Spans spans;
   algorithm.prepare(input, spans, occupied);
   const uint64_t digest = algorithm.upload_digest();

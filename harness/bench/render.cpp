@@ -117,11 +117,11 @@ std::vector<std::filesystem::path> render_frame(const Config& config, const Rend
   ShadedAlgorithm algorithm(device, entry, spec.parameters, workload.options());
   const FrameInput& input = workload.frames().at(options.frame);
   frame.load(input);
-  require_surface(setup, frame.occupied_blocks().places().empty(), 1);
+  require_surface(setup, frame.occupied_blocks().positions().empty(), 1);
   tell_books(setup, workload, 0, 1);
   if (entry.info.needs_contributing_lists) frame.find_contributing(input, algorithm.wanted_lists());
   Spans spans;
-  algorithm.prepare(input, spans, frame.occupied_blocks().places());
+  algorithm.prepare(input, spans, frame.occupied_blocks().positions());
   algorithm.count(frame, input);
 
   std::vector<std::filesystem::path> files{options.out};

@@ -94,7 +94,7 @@ void SetupProof::look(const std::vector<uint32_t>& frames) {
   for (uint32_t index : frames) {
     stop_if_interrupted();
     frame_.load(workload_.frames().at(index));
-    unseen += frame_.occupied_blocks().places().empty();
+    unseen += frame_.occupied_blocks().positions().empty();
   }
   const auto count = static_cast<uint32_t>(frames.size());
   require_surface(setup_, unseen, count);

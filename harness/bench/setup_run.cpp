@@ -153,7 +153,7 @@ void SetupRun::counting_lap(const Step& done, bool tell) {
   for (uint32_t index = 0; index < workload_.frames().frames(); ++index) {
     load(index, true);
     keep_lists(index);
-    unseen += frame_.occupied_blocks().places().empty();
+    unseen += frame_.occupied_blocks().positions().empty();
     std::vector<uint8_t> lit;
     ViewDepths depths;
     {
@@ -165,7 +165,7 @@ void SetupRun::counting_lap(const Step& done, bool tell) {
       stop_if_interrupted();
       auto span = log_.span("counting");
       spans_.clear();
-      algorithms_[i]->prepare(*input_, spans_, frame_.occupied_blocks().places());
+      algorithms_[i]->prepare(*input_, spans_, frame_.occupied_blocks().positions());
       algorithms_[i]->count(frame_, *input_);
       // Drivers finish compiling a program at its first dispatch; that must not be in the first sample,
       // warm-up laps or not.
@@ -206,7 +206,7 @@ void SetupRun::timed_lap(uint32_t lap, const Step& done) {
       ShadedAlgorithm& algorithm = *algorithms_[i];
       spans_.clear();
       auto begin = Clock::now();
-      algorithm.prepare(*input_, spans_, frame_.occupied_blocks().places());
+      algorithm.prepare(*input_, spans_, frame_.occupied_blocks().positions());
       auto prepared = Clock::now();
       gpu::SubmissionTimes times = algorithm.shade(frame_, *input_, timing);
       double prepare_ms = milliseconds_between(begin, prepared),
@@ -264,7 +264,7 @@ void SetupRun::pictures(const std::filesystem::path& folder, const Step& done) {
     for (size_t i = 0; i < cases_.size(); ++i) {
       stop_if_interrupted();
       spans_.clear();
-      algorithms_[i]->prepare(*input_, spans_, frame_.occupied_blocks().places());
+      algorithms_[i]->prepare(*input_, spans_, frame_.occupied_blocks().positions());
       algorithms_[i]->count(frame_, *input_);
       const std::string stem = fmt::format("{}.frame{}", cases_[i].id, index);
       if (has(config_.outputs.images, index)) {

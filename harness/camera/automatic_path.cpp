@@ -18,21 +18,21 @@
 namespace ml {
 namespace {
 
-constexpr size_t kMaxPlaces = 400;
+constexpr size_t kMaxPoints = 400;
 constexpr size_t kMinKeys = 10, kMaxCorners = 14, kMaxKeys = 32;
 constexpr double kSpeed = 5;        // m/s for a grown visitor
 constexpr double kTargetAhead = 8;  // m
 constexpr double kLongView = 80;    // m
 constexpr uint32_t kStepsPerKey = 24;
 
-// At most kMaxPlaces of the points, by a seeded hash, still in their order.
+// At most kMaxPoints of the points, by a seeded hash, still in their order.
 std::vector<FloorPoint> thinned(const std::vector<FloorPoint>& points, uint32_t seed) {
-  if (points.size() <= kMaxPlaces) return points;
+  if (points.size() <= kMaxPoints) return points;
   std::vector<std::pair<uint32_t, uint32_t>> order;
   for (uint32_t i = 0; i < points.size(); ++i) order.emplace_back(hash_u32(seed, i, 2u), i);
-  std::nth_element(order.begin(), order.begin() + kMaxPlaces, order.end());
+  std::nth_element(order.begin(), order.begin() + kMaxPoints, order.end());
   std::vector<uint32_t> chosen;
-  for (size_t i = 0; i < kMaxPlaces; ++i) chosen.push_back(order[i].second);
+  for (size_t i = 0; i < kMaxPoints; ++i) chosen.push_back(order[i].second);
   std::sort(chosen.begin(), chosen.end());
   std::vector<FloorPoint> kept;
   for (uint32_t i : chosen) kept.push_back(points[i]);
@@ -47,24 +47,24 @@ uint32_t farthest(const std::vector<double>& distances, const std::vector<uint32
   return best;
 }
 
-// Between two of the part's far ends, and on to places that the tour has not come near to yet.
+// Between two of the part's far ends, and on to points that the tour has not come near to yet.
 std::vector<glm::dvec3> tour(const WalkGraph& graph, const std::vector<FloorPoint>& points, uint32_t seed) {
   const std::vector<uint32_t>& part = graph.largest_part();
   std::vector<uint32_t> previous;
   uint32_t start = part[hash_u32(seed, 3u) % part.size()];
   uint32_t first = farthest(graph.distances(start, previous), part);
-  std::vector<uint32_t> places{first};
+  std::vector<uint32_t> stops{first};
   std::vector<double> from_tour = graph.distances(first, previous);
-  for (int leg = 0; leg < 4 && places.size() < 4 * kMaxCorners; ++leg) {
-    std::vector<uint32_t> way = graph.way(places.back(), farthest(from_tour, part));
+  for (int leg = 0; leg < 4 && stops.size() < 4 * kMaxCorners; ++leg) {
+    std::vector<uint32_t> way = graph.way(stops.back(), farthest(from_tour, part));
     for (size_t i = 1; i < way.size(); ++i) {
-      places.push_back(way[i]);
+      stops.push_back(way[i]);
       std::vector<double> from_here = graph.distances(way[i], previous);
       for (uint32_t p : part) from_tour[p] = std::min(from_tour[p], from_here[p]);
     }
   }
   std::vector<glm::dvec3> corners;
-  for (uint32_t place : places) corners.push_back(points[place].eye);
+  for (uint32_t stop : stops) corners.push_back(points[stop].eye);
   return corners;
 }
 
@@ -205,7 +205,7 @@ void aim(const RayCaster& rays, CameraPath& path, uint32_t seed) {
   }
 }
 
-// Standing still and turning round once, from the first key's place.
+// Standing still and turning round once, from the first key's position.
 CameraPath look_round(const glm::dvec3& eye) {
   CameraPath path;
   path.name = "default";

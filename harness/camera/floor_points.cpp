@@ -13,7 +13,7 @@ namespace {
 constexpr double kColumns = 1600;
 constexpr int kFloorsPerColumn = 8;
 constexpr int kDirections = 16;
-constexpr size_t kEnough = 24;     // places of a kind; fewer are taken for none
+constexpr size_t kEnough = 24;     // points of a kind; fewer are taken for none
 constexpr double kFlat = 0.7;      // vertical part of a floor's normal
 constexpr double kLongView = 100;  // m
 
@@ -82,7 +82,7 @@ void search_column(const RayCaster& rays, double x, double z, double top, const 
 }
 
 // Within a solid, or in the void under a level, one sees the wrong side of the triangles. The
-// counter-clockwise side should be the right one; a file in which hardly any place sees that side is taken to
+// counter-clockwise side should be the right one; a file in which hardly any point sees that side is taken to
 // be wound the other way round, and where neither holds nothing is dropped.
 void drop_inside_solids(std::vector<Candidate>& candidates) {
   auto sees_front = [](const Candidate& c) { return c.back * 5 <= c.front + c.back; };

@@ -1,4 +1,4 @@
-// Which places can be walked between in a straight line, and the ways over them.
+// Which points can be walked between in a straight line, and the ways over them.
 #pragma once
 
 #include <cstdint>

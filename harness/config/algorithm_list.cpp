@@ -41,13 +41,13 @@ void set_parameter(AlgorithmSpec& spec, const AlgorithmEntry& entry, const std::
   } else {
     node.expected("a number, a text, true or false");
   }
-  spec.parameters.set(entry.parameters, name, typed, node.place());
+  spec.parameters.set(entry.parameters, name, typed, node.where());
 }
 
 // One element of the list, expanded over its parameters' lists, the last parameter fastest.
 void read_entry(const Node& node, std::vector<AlgorithmSpec>& out) {
   if (node.json().is_string()) {
-    const AlgorithmEntry& entry = find_algorithm(node.text(1, 100), node.place());
+    const AlgorithmEntry& entry = find_algorithm(node.text(1, 100), node.where());
     out.push_back({entry.info.name, Parameters(entry.parameters)});
     return;
   }
@@ -55,7 +55,7 @@ void read_entry(const Node& node, std::vector<AlgorithmSpec>& out) {
     node.expected("the name of an algorithm, or an object with its name and parameters");
   if (!node.json().contains("name")) node.fail("the key 'name' is missing");
   Node name = node.member("name");
-  const AlgorithmEntry& entry = find_algorithm(name.text(1, 100), name.place());
+  const AlgorithmEntry& entry = find_algorithm(name.text(1, 100), name.where());
   std::vector<AlgorithmSpec> expanded{{entry.info.name, Parameters(entry.parameters)}};
   for (const auto& [key, value] : node.json().items()) {
     if (key == "name") continue;

@@ -114,11 +114,11 @@ void check_setup(const Setup& setup, const OutputSpec& outputs, const Source& so
   for (size_t i = 0; i < setup.algorithms.size(); ++i) {
     const AlgorithmSpec& spec = setup.algorithms[i];
     const AlgorithmEntry& entry = find_algorithm(spec.name, source.name + ": $.algorithms");
-    uint32_t most = entry.info.max_lights;
-    if (most > 0 && setup.lights.placement != Placement::gltf && setup.lights.count > most) {
+    uint32_t max_lights = entry.info.max_lights;
+    if (max_lights > 0 && setup.lights.placement != Placement::gltf && setup.lights.count > max_lights) {
       Node(nothing, source, "$.lights.count")
           .fail(std::to_string(setup.lights.count) + " lights are more than '" + spec.name +
-                "' can take: " + std::to_string(most) + at());
+                "' can take: " + std::to_string(max_lights) + at());
     }
     std::string wrong = entry.check ? entry.check(spec.parameters, setup.width, setup.height) : "";
     if (!wrong.empty())

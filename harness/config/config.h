@@ -96,8 +96,7 @@ struct Config {
 // "sweep.KEY=[...]" sweeps it. "algorithms.tile=32" goes to every algorithm that has it,
 // "algorithms.0.tile=32" and "algorithms.clustered.tile=32" to one. Relative glTF paths are relative to the
 // configuration file, or to the working directory for an override. Throws UsageError "FILE: $.lights.cuont:
-// unknown key, did you mean 'count'?", with
-// "--set" in place of the file for an override.
+// unknown key, did you mean 'count'?", with "--set" in place of the file for an override.
 Config load_config(const std::string& file_or_name, const std::vector<std::string>& overrides);
 // The same from parsed JSON; `source` stands for the file in messages.
 Config parse_config(const nlohmann::json& json, const std::string& source,

@@ -98,9 +98,9 @@ void Sweeps::read(const Node& node, bool zipped) {
 
 void Sweeps::read_list(const std::string& key, const Node& node, bool zipped) {
   std::erase_if(keys_, [&](const SweptKey& swept) { return swept.key == key; });
-  auto place =
+  auto next =
       std::find_if(keys_.begin(), keys_.end(), [&](const SweptKey& swept) { return swept.key > key; });
-  keys_.insert(place, {key, zipped, node.json(), node.source(), node.path()});
+  keys_.insert(next, {key, zipped, node.json(), node.source(), node.path()});
 }
 
 void Sweeps::forget(const std::string& key, const Node& node) {

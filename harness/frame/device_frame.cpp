@@ -293,17 +293,17 @@ void DeviceFrame::merge_groups(std::span<const uint32_t> offsets) {
     for (uint32_t i = 0; i < pixels; ++i) {
       const uint32_t thread = group * pixels + i, block = thread / (ML_BLOCK * ML_BLOCK);
       const glm::uvec2 pixel = glm::uvec2(block % blocks, block / blocks) * ML_BLOCK +
-                               gpu_data::place_in_block(thread % (ML_BLOCK * ML_BLOCK));
+                               gpu_data::pixel_in_block(thread % (ML_BLOCK * ML_BLOCK));
       if (pixel.x >= width || pixel.y >= height) continue;
-      const size_t place = size_t{pixel.y} * width + pixel.x;
-      members.push_back(place);
-      lights.insert(lights.end(), of_pixels + offsets[place], of_pixels + offsets[place + 1]);
+      const size_t index = size_t{pixel.y} * width + pixel.x;
+      members.push_back(index);
+      lights.insert(lights.end(), of_pixels + offsets[index], of_pixels + offsets[index + 1]);
     }
     std::ranges::sort(lights);
     lights.erase(std::unique(lights.begin(), lights.end()), lights.end());
     std::ranges::copy(lights, merged + written);
     written += static_cast<uint32_t>(lights.size());
-    for (size_t place : members) contributing_.group[place] = static_cast<uint32_t>(lights.size());
+    for (size_t index : members) contributing_.group[index] = static_cast<uint32_t>(lights.size());
   }
   ends[count] = written;
   commands_.begin(gpu::Timing::none);

@@ -29,7 +29,7 @@ class FrameLightStorage {
 
  private:
   size_t count_ = 0;
-  std::vector<float> x_, y_, z_, radius_;  // with padding behind the last light
+  std::vector<float> x_, y_, z_, radius_;  // with padding after the last light
   std::vector<gpu_data::LightCore> core_;
   std::vector<gpu_data::LightExtra> extra_;
 };

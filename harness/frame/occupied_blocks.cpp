@@ -45,13 +45,13 @@ void OccupiedBlocks::record(gpu::Commands& commands, const gpu::Bindings& bindin
 
 void OccupiedBlocks::read() {
   const auto* found = reinterpret_cast<const uint32_t*>(readback_.mapped().data());
-  places_.clear();
+  positions_.clear();
   for (uint32_t row : rows_)
     for (uint32_t column = 0; column < columns_; ++column)
-      if (found[size_t{row} * columns_ + column] != 0) places_.emplace_back(column, row);
-  const size_t bytes = places_.size() * sizeof(glm::u16vec2);
+      if (found[size_t{row} * columns_ + column] != 0) positions_.emplace_back(column, row);
+  const size_t bytes = positions_.size() * sizeof(glm::u16vec2);
   std::span<std::byte> memory = list_.map(bytes);
-  if (bytes > 0) std::memcpy(memory.data(), places_.data(), bytes);
+  if (bytes > 0) std::memcpy(memory.data(), positions_.data(), bytes);
 }
 
 }  // namespace ml

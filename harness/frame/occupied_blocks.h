@@ -17,13 +17,13 @@ class OccupiedBlocks {
  public:
   OccupiedBlocks(gpu::Device& device, uint32_t width, uint32_t height);
 
-  // Records the search behind the g-buffer; `bindings` has its pictures.
+  // Records the search after the g-buffer pass; `bindings` has its pictures.
   void record(gpu::Commands& commands, const gpu::Bindings& bindings);
   // When that has been done: takes what was found.
   void read();
 
-  // Their places (column, row), in the order in which they are to be shaded.
-  std::span<const glm::u16vec2> places() const { return places_; }
+  // Their positions (column, row), in the order in which they are to be shaded.
+  std::span<const glm::u16vec2> positions() const { return positions_; }
   // The same as shading programs bind them ("Blocks"); to be transferred.
   const gpu::UploadBuffer& list() const { return list_; }
 
@@ -32,7 +32,7 @@ class OccupiedBlocks {
   std::vector<uint32_t> rows_;  // in the order of shading
   gpu::ComputeProgram program_;
   gpu::Buffer found_, readback_;
-  std::vector<glm::u16vec2> places_;
+  std::vector<glm::u16vec2> positions_;
   gpu::UploadBuffer list_;
 };
 

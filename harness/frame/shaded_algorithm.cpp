@@ -77,7 +77,7 @@ const gpu::RasterProgram& ShadedAlgorithm::forward_program(bool counting, bool l
   gpu::Constants constants = options_.constants(device_);
   append(constants, {{"LONG_LISTS", long_walks}, {"SPLIT_TARGETS", false}});
   append(constants, algorithm_->shade_constants());
-  append(constants, algorithm_->class_constants(algorithm_->tile_classes().most));
+  append(constants, algorithm_->class_constants(algorithm_->tile_classes().max));
   return forward_programs_
       .emplace(key,
                Level::forward_program(device_, counting ? shaders.forward_counting : shaders.forward,
@@ -177,12 +177,12 @@ void ShadedAlgorithm::tiles_across(std::vector<TileRange>& tiles, uint32_t pixel
 void ShadedAlgorithm::sort_blocks(const FrameInput& input, std::span<const glm::u16vec2> blocks) {
   const TileClasses classes = algorithm_->tile_classes();
   one_class_ = true;
-  only_class_ = classes.most;
+  only_class_ = classes.max;
   if (classes.of_tile.empty() || blocks.empty()) return;
   const auto [lowest, highest_of_all] = std::ranges::minmax(classes.of_tile);
   only_class_ = highest_of_all;
   if (lowest == highest_of_all) return;
-  block_ends_.assign(classes.most + size_t{1}, 0);
+  block_ends_.assign(classes.max + size_t{1}, 0);
   class_of_block_.resize(blocks.size());
   const auto rows = static_cast<uint32_t>(classes.of_tile.size() / classes.columns);
   tiles_across(tiles_of_column_, input.view.resolution.x, classes.tile, classes.columns);
@@ -197,7 +197,7 @@ void ShadedAlgorithm::sort_blocks(const FrameInput& input, std::span<const glm::
     class_of_block_[i] = highest;
     ++block_ends_[highest];
   }
-  for (uint32_t c = 0; c <= classes.most; ++c)
+  for (uint32_t c = 0; c <= classes.max; ++c)
     if (block_ends_[c] == blocks.size()) {
       only_class_ = c;
       return;
@@ -290,7 +290,7 @@ void ShadedAlgorithm::record_loop(gpu::Commands& commands, DeviceFrame& frame, c
     auto span = commands.span("shade");
     if (one_class_)
       shade_blocks(commands, variant, into, input, 0,
-                   static_cast<uint32_t>(frame.occupied_blocks().places().size()));
+                   static_cast<uint32_t>(frame.occupied_blocks().positions().size()));
     for (uint32_t c = 0; !one_class_ && c < block_ends_.size(); ++c) {
       variant.tile_class = c;
       shade_blocks(commands, variant, into, input, c == 0 ? 0 : block_ends_[c - 1], block_ends_[c]);
@@ -340,7 +340,7 @@ void ShadedAlgorithm::count_blocks(DeviceFrame& frame, const FrameInput& input,
   const Variant variant{.counting = true,
                         .sampled = true,
                         .loop = loop_of(frame, input, together_),
-                        .tile_class = algorithm_->tile_classes().most};
+                        .tile_class = algorithm_->tile_classes().max};
   shade_blocks(commands, variant, list, input, 0, static_cast<uint32_t>(blocks.size()));
   commands.submit();
 }

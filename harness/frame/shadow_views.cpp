@@ -38,10 +38,10 @@ std::vector<size_t> largest(const FrameLights& lights, uint32_t count) {
   std::vector<size_t> found;
   for (size_t i = 0; i < lights.count(); ++i) {
     if (lights.core[i].id_shape & ML_LIGHT_PROBE) continue;
-    auto place = std::upper_bound(found.begin(), found.end(), i,
-                                  [&](size_t a, size_t b) { return lights.radius[a] > lights.radius[b]; });
-    if (place == found.end() && found.size() == count) continue;
-    found.insert(place, i);
+    auto next = std::upper_bound(found.begin(), found.end(), i,
+                                 [&](size_t a, size_t b) { return lights.radius[a] > lights.radius[b]; });
+    if (next == found.end() && found.size() == count) continue;
+    found.insert(next, i);
     if (found.size() > count) found.pop_back();
   }
   return found;
@@ -58,8 +58,8 @@ std::vector<gpu_data::ViewData> shadow_views(const FrameInput& frame, uint32_t c
   std::vector<gpu_data::ViewData> views;
   for (uint32_t i = 0; i < count; ++i) {
     Caster caster = casters[i % casters.size()];
-    if (const size_t turn = i / casters.size(); turn > 0) {
-      caster.direction = axes[(turn - 1) % axes.size()];
+    if (const size_t round = i / casters.size(); round > 0) {
+      caster.direction = axes[(round - 1) % axes.size()];
       caster.angle = 90 * degrees;
     }
     const glm::dvec3 at = glm::dvec3(frame.view.camera) + glm::dvec3(caster.position);

@@ -18,12 +18,12 @@ struct Run {
 
 // The sizes are below 2^31 by the schema and the strides below 2^8, so that nothing here can overflow 64
 // bits.
-Run run_of(const File& file, const std::string& place, size_t view, size_t offset, size_t count,
+Run run_of(const File& file, const std::string& where, size_t view, size_t offset, size_t count,
            size_t element_size, size_t stride) {
   Bytes bytes = view_bytes(file, view);
   size_t end = offset + (count - 1) * stride + element_size;
   if (end > bytes.size())
-    file.fail(place,
+    file.fail(where,
               "reaches " + std::to_string(end - bytes.size()) + " bytes past " + at("bufferViews", view));
   return {bytes.subspan(offset), stride};
 }
@@ -62,7 +62,7 @@ double component(const std::byte* bytes, int type, bool normalized) {
 // floats exactly).
 std::vector<double> read_all(const File& file, size_t index, size_t components) {
   const tinygltf::Accessor& accessor = file.model.accessors[index];
-  std::string place = at("accessors", index);
+  std::string where = at("accessors", index);
   auto component_size =
       static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(accessor.componentType)));
   size_t element_size = component_size * components;
@@ -73,11 +73,11 @@ std::vector<double> read_all(const File& file, size_t index, size_t components) 
     size_t stride = file.model.bufferViews[view].byteStride;
     if (stride == 0) stride = element_size;
     if (stride < element_size)
-      file.fail(place, "its elements have " + std::to_string(element_size) + " bytes, but the stride of " +
+      file.fail(where, "its elements have " + std::to_string(element_size) + " bytes, but the stride of " +
                            at("bufferViews", view) + " is " + std::to_string(stride));
-    base = run_of(file, place, view, accessor.byteOffset, accessor.count, element_size, stride);
+    base = run_of(file, where, view, accessor.byteOffset, accessor.count, element_size, stride);
   } else if (accessor.count > std::max<size_t>(65536, file.total_bytes())) {
-    file.fail(place, "has " + std::to_string(accessor.count) + " elements without a buffer view");
+    file.fail(where, "has " + std::to_string(accessor.count) + " elements without a buffer view");
   }
   Run sparse_indices, sparse_values;
   size_t sparse_count = accessor.sparse.isSparse ? static_cast<size_t>(accessor.sparse.count) : 0;
@@ -86,12 +86,12 @@ std::vector<double> read_all(const File& file, size_t index, size_t components) 
                                  : 0;
   if (sparse_count) {
     if (sparse_count > accessor.count)
-      file.fail(place + ".sparse.count", "is more than the accessor's count");
+      file.fail(where + ".sparse.count", "is more than the accessor's count");
     sparse_indices =
-        run_of(file, place + ".sparse.indices", static_cast<size_t>(accessor.sparse.indices.bufferView),
+        run_of(file, where + ".sparse.indices", static_cast<size_t>(accessor.sparse.indices.bufferView),
                static_cast<size_t>(accessor.sparse.indices.byteOffset), sparse_count, index_size, index_size);
     sparse_values = run_of(
-        file, place + ".sparse.values", static_cast<size_t>(accessor.sparse.values.bufferView),
+        file, where + ".sparse.values", static_cast<size_t>(accessor.sparse.values.bufferView),
         static_cast<size_t>(accessor.sparse.values.byteOffset), sparse_count, element_size, element_size);
   }
 
@@ -107,7 +107,7 @@ std::vector<double> read_all(const File& file, size_t index, size_t components) 
     auto element = static_cast<size_t>(
         component(sparse_indices.element(i), accessor.sparse.indices.componentType, false));
     if (element >= accessor.count)
-      file.fail(place + ".sparse.indices", "element " + std::to_string(i) + " is " + std::to_string(element) +
+      file.fail(where + ".sparse.indices", "element " + std::to_string(i) + " is " + std::to_string(element) +
                                                ", but the accessor has " + std::to_string(accessor.count) +
                                                " elements");
     put(element, sparse_values.element(i));
@@ -117,7 +117,7 @@ std::vector<double> read_all(const File& file, size_t index, size_t components) 
 
 }  // namespace
 
-std::vector<double> read_numbers(const File& file, size_t index, int components, const std::string& place) {
+std::vector<double> read_numbers(const File& file, size_t index, int components, const std::string& where) {
   static const std::map<int, std::pair<const char*, int>> types = {{1, {"SCALAR", TINYGLTF_TYPE_SCALAR}},
                                                                    {2, {"VEC2", TINYGLTF_TYPE_VEC2}},
                                                                    {3, {"VEC3", TINYGLTF_TYPE_VEC3}},
@@ -126,9 +126,9 @@ std::vector<double> read_numbers(const File& file, size_t index, int components,
   const tinygltf::Accessor& accessor = file.model.accessors[index];
   const auto& [name, wanted] = types.at(components);
   if (accessor.type != wanted)
-    file.fail(place, "expected " + std::string(name) + " elements in " + at("accessors", index));
+    file.fail(where, "expected " + std::string(name) + " elements in " + at("accessors", index));
   if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
-    file.fail(place, "expected floats or 8- or 16-bit integers in " + at("accessors", index));
+    file.fail(where, "expected floats or 8- or 16-bit integers in " + at("accessors", index));
   if (accessor.count > max_vertices)
     file.fail(at("accessors", index), "has " + std::to_string(accessor.count) +
                                           " elements, more than the limit of " +
@@ -141,13 +141,13 @@ std::vector<double> read_numbers(const File& file, size_t index, int components,
   return result;
 }
 
-std::vector<uint32_t> read_indices(const File& file, size_t index, const std::string& place) {
+std::vector<uint32_t> read_indices(const File& file, size_t index, const std::string& where) {
   const tinygltf::Accessor& accessor = file.model.accessors[index];
   bool whole = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
                accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
   if (accessor.type != TINYGLTF_TYPE_SCALAR || !whole || accessor.normalized)
-    file.fail(place, "expected unsigned 8-, 16- or 32-bit integers in " + at("accessors", index));
+    file.fail(where, "expected unsigned 8-, 16- or 32-bit integers in " + at("accessors", index));
   if (accessor.count > max_indices)
     file.fail(at("accessors", index), "has " + std::to_string(accessor.count) +
                                           " indices, more than the limit of " + std::to_string(max_indices));

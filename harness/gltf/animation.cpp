@@ -10,7 +10,7 @@ constexpr size_t max_keys = 100000;        // of a channel
 constexpr size_t max_all_keys = 10000000;  // of all channels: many may share one accessor
 
 // A channel of the file that the bench can play.
-struct ChannelPlace {
+struct PlayedChannel {
   size_t animation = 0, channel = 0;
   MotionChannel::Target target = MotionChannel::Target::translation;
 };
@@ -51,11 +51,11 @@ class MovementLoader {
       for (size_t i = 0; i < channels.size(); ++i) {
         const Json& target = channels[i]["target"];
         const std::string path = target["path"];
-        ChannelPlace place{a, i};
+        PlayedChannel played{a, i};
         if (path == "rotation") {
-          place.target = MotionChannel::Target::rotation;
+          played.target = MotionChannel::Target::rotation;
         } else if (path == "scale") {
-          place.target = MotionChannel::Target::scale;
+          played.target = MotionChannel::Target::scale;
         } else if (path != "translation") {
           ++(path == "weights" ? weights : others);
           continue;
@@ -66,7 +66,7 @@ class MovementLoader {
         }
         auto& known = channels_[target["node"].get<size_t>()];
         if (known.empty() || known.front().animation == a)
-          known.push_back(place);
+          known.push_back(played);
         else
           ++later;
       }
@@ -119,7 +119,7 @@ class MovementLoader {
     for (auto next = chain.rbegin(); next != chain.rend(); ++next) {
       MotionNode motion;
       if (const int parent = parents_[*next]; parent >= 0) motion.parent = index[static_cast<size_t>(parent)];
-      for (const ChannelPlace& place : channels_[*next]) motion.channels.push_back(read_channel(place));
+      for (const PlayedChannel& played : channels_[*next]) motion.channels.push_back(read_channel(played));
       if (motion.channels.empty())
         motion.local = local_transform(file_, *next);
       else
@@ -128,37 +128,37 @@ class MovementLoader {
     }
   }
 
-  MotionChannel read_channel(const ChannelPlace& from) {
+  MotionChannel read_channel(const PlayedChannel& from) {
     const Json& animation = file_.json["animations"][from.animation];
     const auto index = animation["channels"][from.channel]["sampler"].get<size_t>();
-    const std::string place = gltf::at("animations", from.animation);
+    const std::string where = gltf::at("animations", from.animation);
     if (index >= animation["samplers"].size())
-      file_.fail(place + "." + gltf::at("channels", from.channel) + ".sampler",
+      file_.fail(where + "." + gltf::at("channels", from.channel) + ".sampler",
                  "is " + std::to_string(index) + ", but the animation has " +
                      std::to_string(animation["samplers"].size()) + " samplers");
     const Json& sampler = animation["samplers"][index];
-    const std::string where = place + "." + gltf::at("samplers", index),
+    const std::string of_sampler = where + "." + gltf::at("samplers", index),
                       interpolation = sampler.value("interpolation", "LINEAR");
     MotionChannel channel;
     channel.target = from.target;
     channel.interpolation = interpolation == "STEP"          ? MotionChannel::Interpolation::step
                             : interpolation == "CUBICSPLINE" ? MotionChannel::Interpolation::cubic
                                                              : MotionChannel::Interpolation::linear;
-    channel.times = read_numbers(file_, sampler["input"].get<size_t>(), 1, where + ".input");
+    channel.times = read_numbers(file_, sampler["input"].get<size_t>(), 1, of_sampler + ".input");
     const int width = channel.target == MotionChannel::Target::rotation ? 4 : 3;
-    channel.values = read_numbers(file_, sampler["output"].get<size_t>(), width, where + ".output");
+    channel.values = read_numbers(file_, sampler["output"].get<size_t>(), width, of_sampler + ".output");
     keys_ += channel.times.size();
     if (channel.times.size() > max_keys || keys_ > max_all_keys)
-      file_.fail(where + ".input", "has more than " + std::to_string(max_keys) +
-                                       " keys, or all channels together more than " +
-                                       std::to_string(max_all_keys));
+      file_.fail(of_sampler + ".input", "has more than " + std::to_string(max_keys) +
+                                            " keys, or all channels together more than " +
+                                            std::to_string(max_all_keys));
     for (size_t k = 1; k < channel.times.size(); ++k)
       if (!(channel.times[k] > channel.times[k - 1]))
-        file_.fail(where + ".input", "its times do not increase at key " + std::to_string(k));
+        file_.fail(of_sampler + ".input", "its times do not increase at key " + std::to_string(k));
     const size_t per_key = channel.interpolation == MotionChannel::Interpolation::cubic ? 3 : 1;
     const size_t wanted = channel.times.size() * per_key * static_cast<size_t>(width);
     if (channel.times.empty() || channel.values.size() != wanted)
-      file_.fail(where + ".output",
+      file_.fail(of_sampler + ".output",
                  "has " + std::to_string(channel.values.size() / static_cast<size_t>(width)) +
                      " elements, expected " + std::to_string(channel.times.size() * per_key));
     return channel;
@@ -167,9 +167,9 @@ class MovementLoader {
   File& file_;
   const std::vector<PlacedNode>& nodes_;
   std::vector<int> parents_;
-  std::vector<std::vector<ChannelPlace>> channels_;  // by node
-  size_t keys_ = 0;                                  // read so far
-  std::vector<char> moves_;                          // by node: it, or one above it
+  std::vector<std::vector<PlayedChannel>> channels_;  // by node
+  size_t keys_ = 0;                                   // read so far
+  std::vector<char> moves_;                           // by node: it, or one above it
 };
 
 bool has_volume(const glm::dmat4& world) {
@@ -178,7 +178,7 @@ bool has_volume(const glm::dmat4& world) {
 }
 
 // Where the node is when the motion begins, or when it first has a volume.
-glm::dmat4 first_place(const NodeMotions& motions, size_t node) {
+glm::dmat4 first_transform(const NodeMotions& motions, size_t node) {
   const glm::dmat4 begin = motions.world(node, motions.begin());
   if (has_volume(begin)) return begin;
   for (double time : sample_times(motions, node, 7))
@@ -194,7 +194,7 @@ Movement load_movement(File& file, std::vector<PlacedNode>& nodes) {
   for (PlacedNode& placed : nodes)
     if (const int index = movement.of(placed.node);
         index >= 0 && movement.motions->moves(static_cast<size_t>(index)))
-      placed.world = first_place(*movement.motions, static_cast<size_t>(index));
+      placed.world = first_transform(*movement.motions, static_cast<size_t>(index));
   return movement;
 }
 

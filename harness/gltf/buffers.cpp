@@ -16,7 +16,7 @@ int base64_digit(char c) {
   return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-std::vector<std::byte> decode_base64(const File& file, const std::string& place, std::string_view text) {
+std::vector<std::byte> decode_base64(const File& file, const std::string& where, std::string_view text) {
   while (!text.empty() && text.back() == '=') text.remove_suffix(1);
   std::vector<std::byte> bytes;
   bytes.reserve(text.size() / 4 * 3 + 2);
@@ -24,7 +24,7 @@ std::vector<std::byte> decode_base64(const File& file, const std::string& place,
   int count = 0;
   for (char c : text) {
     int digit = base64_digit(c);
-    if (digit < 0) file.fail(place, "the data URI is not base64");
+    if (digit < 0) file.fail(where, "the data URI is not base64");
     bits = (bits << 6) | static_cast<uint32_t>(digit);
     count += 6;
     if (count < 8) continue;
@@ -73,33 +73,33 @@ void check_views(const File& file) {
 
 }  // namespace
 
-std::filesystem::path external_path(const File& file, const std::string& place, const std::string& uri) {
-  if (!file.external) file.fail(place, "external files are refused here: '" + uri + "'");
+std::filesystem::path external_path(const File& file, const std::string& where, const std::string& uri) {
+  if (!file.external) file.fail(where, "external files are refused here: '" + uri + "'");
   const std::string decoded = decode_percent(uri);
   const std::filesystem::path path(decoded);
   // A colon or a backslash that stands there as itself begins a scheme or a drive, or separates folders
   // elsewhere; one that is written %3A or %5C belongs to a name.
   if (decoded.empty() || !path.is_relative() || uri.find_first_of(":\\") != std::string::npos ||
       decoded.find('\0') != std::string::npos)
-    file.fail(place, "expected a file in or below the folder of the glTF, found '" + uri + "'");
+    file.fail(where, "expected a file in or below the folder of the glTF, found '" + uri + "'");
   if (!lies_below(file.folder / path, file.root) && !lies_below(file.folder / path, file.folder))
-    file.fail(place, "expected a file in or below '" + (file.root.empty() ? "." : file.root.string()) +
+    file.fail(where, "expected a file in or below '" + (file.root.empty() ? "." : file.root.string()) +
                          "', found '" + uri + "'; scene.root names another folder");
   return file.folder / path;
 }
 
-std::vector<std::byte> load_uri(const File& file, const std::string& place, const std::string& uri) {
+std::vector<std::byte> load_uri(const File& file, const std::string& where, const std::string& uri) {
   if (uri.starts_with("data:")) {
     static constexpr std::string_view marker = ";base64,";
     size_t start = uri.substr(0, 256).find(marker);
-    if (start == std::string::npos) file.fail(place, "expected a data URI with ';base64,'");
-    return decode_base64(file, place, std::string_view(uri).substr(start + marker.size()));
+    if (start == std::string::npos) file.fail(where, "expected a data URI with ';base64,'");
+    return decode_base64(file, where, std::string_view(uri).substr(start + marker.size()));
   }
-  std::filesystem::path path = external_path(file, place, uri);
+  std::filesystem::path path = external_path(file, where, uri);
   try {
     return read_file(path);
   } catch (const UsageError& error) {
-    file.fail(place, error.what());
+    file.fail(where, error.what());
   }
 }
 

@@ -18,10 +18,10 @@ constexpr uint32_t times_between_keys = 7;  // at which a moving camera's reach 
 constexpr double reach_margin = 1.001;
 
 // What a configuration can hold: no control characters, at most max_name bytes, whole UTF-8 letters.
-std::string typeable(const std::string& name, size_t most = max_name) {
+std::string typeable(const std::string& name, size_t max_bytes = max_name) {
   std::string result = name;
-  if (result.size() > most) {
-    size_t end = most;
+  if (result.size() > max_bytes) {
+    size_t end = max_bytes;
     while (end > 0 && (static_cast<unsigned char>(result[end]) & 0xc0) == 0x80) --end;
     result.resize(end);
   }
@@ -143,13 +143,13 @@ class CameraLoader {
   void set_lens(CameraPath& path, size_t index) {
     const tinygltf::Camera& camera = file_.model.cameras[index];
     const Json& json = file_.json["cameras"][index];
-    const std::string place = at("cameras", index);
+    const std::string where = at("cameras", index);
     if (camera.type == "perspective")
       set_perspective(path, camera.perspective,
                       json["perspective"].contains("zfar") && !json.contains(window_key));
     else
-      set_orthographic(path, camera.orthographic, place);
-    read_window(path, json, place);
+      set_orthographic(path, camera.orthographic, where);
+    read_window(path, json, where);
     if (scene_.paths.empty())
       scene_.near = std::min(path.has_projection ? path.projection.near : path.own_near, max_scene_near);
   }
@@ -170,10 +170,10 @@ class CameraLoader {
   }
 
   void set_orthographic(CameraPath& path, const tinygltf::OrthographicCamera& lens,
-                        const std::string& place) {
+                        const std::string& where) {
     auto width = static_cast<float>(std::abs(lens.xmag)), height = static_cast<float>(std::abs(lens.ymag));
     if (!(width > 0 && height > 0 && width <= 1e9f && height <= 1e9f))
-      file_.fail(place + ".orthographic", "expected an xmag and ymag that are not 0");
+      file_.fail(where + ".orthographic", "expected an xmag and ymag that are not 0");
     path.has_projection = true;
     path.projection.kind = ProjectionKind::orthographic;
     path.projection.left = -width, path.projection.right = width;
@@ -181,7 +181,7 @@ class CameraLoader {
     // The bench's near plane lies in front of the camera: a millimetre, or less in a level of millimetres.
     const double least = std::clamp(1e-4 * double{path.reach}, min_near, 0.001);
     const double near = near_of(path, lens.znear, least);
-    if (!(lens.zfar > near)) file_.fail(place + ".orthographic.zfar", "expected more than znear");
+    if (!(lens.zfar > near)) file_.fail(where + ".orthographic.zfar", "expected more than znear");
     path.projection.near = static_cast<float>(near);
     path.projection.far = std::max(static_cast<float>(std::min(lens.zfar, max_coordinate)),
                                    std::nextafter(path.projection.near, 1e10f));
@@ -190,7 +190,7 @@ class CameraLoader {
   // An asymmetric window, as the bench's exporter keeps it beside the symmetric one that glTF knows. Its far
   // bounds the grids of algorithms and clips nothing: the exporter writes the projection of a procedural
   // path.
-  void read_window(CameraPath& path, const Json& camera, const std::string& place) {
+  void read_window(CameraPath& path, const Json& camera, const std::string& where) {
     Json window = camera.value(window_key, Json());
     if (window.is_null()) return;
     Projection& projection = path.projection;
@@ -198,7 +198,7 @@ class CameraLoader {
     for (size_t i = 0; i < 4; ++i) *sides[i] = window[i].get<float>();
     bool usable = projection.left < projection.right && projection.bottom < projection.top;
     for (float* side : sides) usable = usable && std::abs(*side) <= 1e9f;
-    if (!usable) file_.fail(place + ".extras.manylights.window", "expected left < right and bottom < top");
+    if (!usable) file_.fail(where + ".extras.manylights.window", "expected left < right and bottom < top");
     if (camera["type"] == "perspective") {
       path.projection.near = path.own_near;
       path.projection.far = static_cast<float>(

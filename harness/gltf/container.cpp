@@ -34,15 +34,15 @@ Container open_glb(const File& file, Bytes bytes) {
   Container container;
   size_t offset = header_size;
   for (size_t chunk = 0; offset < length; ++chunk) {
-    std::string place = at("chunk", chunk);
-    if (length - offset < chunk_header_size) file.fail(place, "its header is cut off");
+    std::string where = at("chunk", chunk);
+    if (length - offset < chunk_header_size) file.fail(where, "its header is cut off");
     size_t size = word(bytes, offset);
     uint32_t type = word(bytes, offset + 4);
     offset += chunk_header_size;
     if (size > length - offset)
-      file.fail(place,
+      file.fail(where,
                 "reaches " + std::to_string(size - (length - offset)) + " bytes past the end of the file");
-    if (chunk == 0 && type != json_chunk) file.fail(place, "expected the JSON chunk first");
+    if (chunk == 0 && type != json_chunk) file.fail(where, "expected the JSON chunk first");
     if (chunk == 0) container.json = text(bytes.subspan(offset, size));
     if (chunk == 1 && type == bin_chunk) container.binary = bytes.subspan(offset, size);
     offset += size;
@@ -53,8 +53,8 @@ Container open_glb(const File& file, Bytes bytes) {
 
 }  // namespace
 
-void File::fail(const std::string& place, const std::string& what) const {
-  throw UsageError(name + ": " + place + ": " + what);
+void File::fail(const std::string& where, const std::string& what) const {
+  throw UsageError(name + ": " + where + ": " + what);
 }
 
 size_t File::total_bytes() const {

@@ -196,8 +196,8 @@ class Exporter {
          {"rotation", OrderedJson::array({rotations[0], rotations[1], rotations[2], rotations[3]})}});
     if (!moves) return;
     size_t input = out_.add_floats(times, 1, GlbWriter::Target::none, true);
-    size_t places = out_.add_floats(translations, 3, GlbWriter::Target::none, false);
-    size_t turns = out_.add_floats(rotations, 4, GlbWriter::Target::none, false);
+    size_t position_output = out_.add_floats(translations, 3, GlbWriter::Target::none, false);
+    size_t rotation_output = out_.add_floats(rotations, 4, GlbWriter::Target::none, false);
     auto channel = [&](int sampler, const char* what) {
       return OrderedJson{{"sampler", sampler}, {"target", {{"node", node}, {"path", what}}}};
     };
@@ -206,7 +206,7 @@ class Exporter {
     };
     OrderedJson animation = {{"name", path.name}};
     animation["channels"] = OrderedJson::array({channel(0, "translation"), channel(1, "rotation")});
-    animation["samplers"] = OrderedJson::array({sampler(places), sampler(turns)});
+    animation["samplers"] = OrderedJson::array({sampler(position_output), sampler(rotation_output)});
     out_.json()["animations"] = OrderedJson::array({animation});
   }
 

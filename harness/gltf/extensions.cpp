@@ -19,7 +19,7 @@ bool is_known(const std::string& name) {
   return std::find(known_extensions().begin(), known_extensions().end(), name) != known_extensions().end();
 }
 
-// Without these a level has other colours or stands still, but has the same meshes in the same places: the
+// Without these a level has other colours or stands still, but has the same meshes in the same positions: the
 // name, or all that begin with it, and what becomes of it.
 const char* what_is_lost(const std::string& name) {
   static const std::pair<const char*, const char*> kinds[] = {
@@ -61,8 +61,8 @@ void check_version(const File& file, const Json& raw) {
     file.fail("asset.minVersion", "expected 2.0, found '" + least.get<std::string>() + "'");
 }
 
-[[noreturn]] void fail_compressed(const File& file, const std::string& place, const std::string& name) {
-  file.fail(place, "the file needs " + name + ", which is not supported");
+[[noreturn]] void fail_compressed(const File& file, const std::string& where, const std::string& name) {
+  file.fail(where, "the file needs " + name + ", which is not supported");
 }
 
 bool has_bytes(const Json& raw, const Json& accessor) {
@@ -100,8 +100,8 @@ void check_required(File& file, const Json& raw) {
   if (needed.is_null()) return;
   if (!needed.is_array()) file.fail("extensionsRequired", "expected an array");
   for (size_t i = 0; i < needed.size(); ++i) {
-    const std::string place = at("extensionsRequired", i);
-    if (!needed[i].is_string()) file.fail(place, "expected a string");
+    const std::string where = at("extensionsRequired", i);
+    if (!needed[i].is_string()) file.fail(where, "expected a string");
     const auto name = needed[i].get<std::string>();
     if (is_known(name)) continue;
     if (const char* loss = what_is_lost(name)) {
@@ -109,7 +109,7 @@ void check_required(File& file, const Json& raw) {
       continue;
     }
     const std::string near = nearest_name(name, known_extensions());
-    file.fail(place, "the file needs " + name + ", which is not supported" +
+    file.fail(where, "the file needs " + name + ", which is not supported" +
                          (near.empty() ? "" : ", did you mean '" + near + "'?"));
   }
 }

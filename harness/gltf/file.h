@@ -48,8 +48,8 @@ struct File {
   std::vector<Bytes> buffers;
   std::vector<std::string> notes;
 
-  // Throws UsageError "name: place: what".
-  [[noreturn]] void fail(const std::string& place, const std::string& what) const;
+  // Throws UsageError "name: where: what".
+  [[noreturn]] void fail(const std::string& where, const std::string& what) const;
   // The size of all buffers.
   size_t total_bytes() const;
 };
@@ -81,16 +81,16 @@ void note_what_is_ignored(File& file, const Json& raw);
 void load_buffers(File& file, std::optional<Bytes> binary);
 // The bytes of a buffer view.
 Bytes view_bytes(const File& file, size_t view);
-// The bytes behind a URI: a data URI is decoded, anything else is a file below file.root.
-std::vector<std::byte> load_uri(const File& file, const std::string& place, const std::string& uri);
+// The bytes that a URI names: a data URI is decoded, anything else is a file below file.root.
+std::vector<std::byte> load_uri(const File& file, const std::string& where, const std::string& uri);
 // The path of a file that lies in or below file.root, seen from file.folder. Throws UsageError for absolute
 // paths, schemes, paths that lead out of the root, and where external files are refused.
-std::filesystem::path external_path(const File& file, const std::string& place, const std::string& uri);
+std::filesystem::path external_path(const File& file, const std::string& where, const std::string& uri);
 
-// accessor.cpp. `place` is where the accessor is used, for errors.
+// accessor.cpp. `where`: what uses the accessor, for errors.
 // Elements of `components` numbers each (1 to 4, or 16: matrices, column by column), normalised integers as
 // [0, 1] or [-1, 1]; all finite.
-std::vector<double> read_numbers(const File& file, size_t accessor, int components, const std::string& place);
-std::vector<uint32_t> read_indices(const File& file, size_t accessor, const std::string& place);
+std::vector<double> read_numbers(const File& file, size_t accessor, int components, const std::string& where);
+std::vector<uint32_t> read_indices(const File& file, size_t accessor, const std::string& where);
 
 }  // namespace ml::gltf

@@ -33,11 +33,11 @@ size_t GlbWriter::add_floats(std::span<const float> values, size_t components, T
   if (bounds) {
     OrderedJson low = OrderedJson::array(), high = OrderedJson::array();
     for (size_t c = 0; c < components; ++c) {
-      float least = values[c], most = values[c];
+      float min = values[c], max = values[c];
       for (size_t i = c; i < values.size(); i += components)
-        least = std::min(least, values[i]), most = std::max(most, values[i]);
-      low.push_back(least);
-      high.push_back(most);
+        min = std::min(min, values[i]), max = std::max(max, values[i]);
+      low.push_back(min);
+      high.push_back(max);
     }
     accessor["min"] = std::move(low);
     accessor["max"] = std::move(high);

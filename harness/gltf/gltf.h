@@ -25,9 +25,8 @@ Scene import_gltf_memory(std::span<const std::byte> bytes, const std::string& na
 
 // Writes scene, cameras (the keys of the default path as an animated camera) and lights (KHR_lights_punctual
 // with extras for the shapes that it does not have, up to 4096; above that in a binary side file
-// FILE.lights.bin named in the file's extras; formats: parts.h). Byte-identical on every
-// machine. Throws SystemError, and UsageError for a scene without triangles and for a light that
-// rejection_reason() refuses.
+// FILE.lights.bin named in the file's extras; formats: parts.h). Byte-identical on every machine. Throws
+// SystemError, and UsageError for a scene without triangles and for a light that rejection_reason() refuses.
 void export_glb(const Scene& scene, const std::vector<Light>& lights, const std::filesystem::path& file);
 
 }  // namespace ml

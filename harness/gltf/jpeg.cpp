@@ -96,15 +96,15 @@ bool is_jpeg(Bytes bytes) {
          bytes[2] == std::byte{0xff};
 }
 
-Texture decode_jpeg(const File& file, const std::string& place, Bytes bytes, size_t pixels_left) {
+Texture decode_jpeg(const File& file, const std::string& where, Bytes bytes, size_t pixels_left) {
   Failure failure = {};
   Texture texture;
   if (!read_size(failure, bytes, texture.width, texture.height))
-    file.fail(place, "not a JPEG that can be decoded: " + std::string(failure.text));
-  check_image_size(file, place, texture.width, texture.height, bytes.size(), pixels_left);
+    file.fail(where, "not a JPEG that can be decoded: " + std::string(failure.text));
+  check_image_size(file, where, texture.width, texture.height, bytes.size(), pixels_left);
   texture.rgba.resize(size_t{texture.width} * texture.height * 4);
   if (!read_pixels(failure, bytes, texture.rgba.data()))
-    file.fail(place, "the JPEG cannot be decoded: " + std::string(failure.text));
+    file.fail(where, "the JPEG cannot be decoded: " + std::string(failure.text));
   return texture;
 }
 

@@ -61,13 +61,13 @@ Light light_of(const File& file, size_t index, size_t& without_range) {
 }
 
 void load_side_file(const File& file, const std::string& name, Scene& scene) {
-  static const std::string place = "asset.extras.manylights.lights";
-  std::filesystem::path path = external_path(file, place, name);
+  static const std::string where = "asset.extras.manylights.lights";
+  std::filesystem::path path = external_path(file, where, name);
   std::vector<std::byte> bytes;
   try {
     bytes = read_file(path);
   } catch (const UsageError& error) {
-    file.fail(place, error.what());
+    file.fail(where, error.what());
   }
   std::vector<Light> lights = decode_lights(path.string(), bytes);
   scene.lights.insert(scene.lights.end(), lights.begin(), lights.end());
@@ -99,7 +99,7 @@ void load_lights(File& file, const std::vector<PlacedNode>& nodes, const Movemen
     glm::dmat4 world = placed.world;
     world[3] -= glm::dvec4(center, 0);
     const int mover = movement.moving(placed.node);
-    // A light whose node is animated may have a place later.
+    // A light whose node is animated may have a position later.
     if (!place_on_node(light, world)) {
       if (mover < 0) {
         ++without_scale;

@@ -96,8 +96,9 @@ std::vector<Light> decode_lights(const std::string& name, Bytes bytes) {
     uint32_t shape = in.get32();
     light.probe = !old && (shape & probe_bit) != 0;
     if (light.probe) shape &= ~probe_bit;
-    if (const uint32_t most = old ? 1 : 4; shape > most)
-      fail(at("lights", i) + ": shape " + std::to_string(shape) + ", expected 0 to " + std::to_string(most));
+    if (const uint32_t max_shape = old ? 1 : 4; shape > max_shape)
+      fail(at("lights", i) + ": shape " + std::to_string(shape) + ", expected 0 to " +
+           std::to_string(max_shape));
     light.shape = static_cast<LightShape>(shape);
     if (old) continue;
     for (int c = 0; c < 3; ++c) light.side[c] = in.get_float();

@@ -133,12 +133,12 @@ class MeshLoader {
     const auto& primitives = file_.model.meshes[mesh].primitives;
     shared_.clear();
     for (size_t i = 0; i < primitives.size(); ++i) {
-      const std::string place = at("meshes", mesh) + "." + at("primitives", i);
+      const std::string where = at("meshes", mesh) + "." + at("primitives", i);
       if (!is_drawn(primitives[i])) continue;
       bool skinned = !joints.empty() && VertexTransforms::is_skinned(primitives[i]);
       add_primitive(
-          placed, primitives[i], place,
-          skinned ? VertexTransforms(file_, primitives[i], joints, place) : VertexTransforms(world));
+          placed, primitives[i], where,
+          skinned ? VertexTransforms(file_, primitives[i], joints, where) : VertexTransforms(world));
     }
   }
 
@@ -150,18 +150,18 @@ class MeshLoader {
     return triangles && positions;
   }
 
-  void add_primitive(const PlacedNode& placed, const tinygltf::Primitive& primitive, const std::string& place,
+  void add_primitive(const PlacedNode& placed, const tinygltf::Primitive& primitive, const std::string& where,
                      const VertexTransforms& transforms) {
     int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
-    const VertexSource source(file_, primitive, place);
+    const VertexSource source(file_, primitive, where);
     size_t count = file_.model.accessors[source.positions].count;
-    std::vector<uint32_t> corners = triangle_corners(primitive, mode, count, place);
+    std::vector<uint32_t> corners = triangle_corners(primitive, mode, count, where);
     without_material_ += primitive.material < 0;
     without_coordinates_ += source.lacks_coordinates;
     size_t material =
         primitive.material < 0 ? triangles_.size() - 1 : static_cast<size_t>(primitive.material);
     std::vector<uint32_t>& list = triangles_of(placed, material, !transforms.is_one());
-    check_room(source.normals < 0 ? corners.size() : count, corners.size(), place);
+    check_capacity(source.normals < 0 ? corners.size() : count, corners.size(), where);
 
     // Mirrored triangles are turned over, so that their fronts stay fronts.
     for (size_t i = 0; i + 2 < corners.size(); i += 3)
@@ -176,19 +176,19 @@ class MeshLoader {
   }
 
   std::vector<uint32_t> triangle_corners(const tinygltf::Primitive& primitive, int mode, size_t vertices,
-                                         const std::string& place) const {
+                                         const std::string& where) const {
     std::vector<uint32_t> corners;
     if (primitive.indices < 0) {
       if (vertices > max_vertices)
-        file_.fail(place, "has " + std::to_string(vertices) + " vertices, more than the limit of " +
+        file_.fail(where, "has " + std::to_string(vertices) + " vertices, more than the limit of " +
                               std::to_string(max_vertices));
       corners.resize(vertices);
       for (size_t i = 0; i < vertices; ++i) corners[i] = static_cast<uint32_t>(i);
     } else {
-      corners = read_indices(file_, static_cast<size_t>(primitive.indices), place + ".indices");
+      corners = read_indices(file_, static_cast<size_t>(primitive.indices), where + ".indices");
       for (size_t i = 0; i < corners.size(); ++i)
         if (corners[i] >= vertices)
-          file_.fail(place + ".indices", at("accessors", static_cast<size_t>(primitive.indices)) +
+          file_.fail(where + ".indices", at("accessors", static_cast<size_t>(primitive.indices)) +
                                              " element " + std::to_string(i) + " is " +
                                              std::to_string(corners[i]) + ", but there are " +
                                              std::to_string(vertices) + " vertices");
@@ -210,10 +210,10 @@ class MeshLoader {
   }
 
   // Before memory is asked for: one mesh may stand on very many nodes.
-  void check_room(size_t vertices, size_t corners, const std::string& place) {
+  void check_capacity(size_t vertices, size_t corners, const std::string& where) {
     corners_ += corners;
     if (scene_.vertices.size() + vertices > max_vertices || corners_ > max_indices)
-      file_.fail(place, "the scene has more than " + std::to_string(max_vertices) + " vertices or triangles");
+      file_.fail(where, "the scene has more than " + std::to_string(max_vertices) + " vertices or triangles");
   }
 
   glm::dvec3 world_position(const PlacedNode& placed, const VertexSource& source, const glm::dmat4& transform,
@@ -221,7 +221,7 @@ class MeshLoader {
     const glm::dvec3 position(transform * glm::dvec4(attributes.positions[i], 1));
     for (int c = 0; c < 3; ++c)
       if (!(std::abs(position[c]) <= max_coordinate))
-        file_.fail(source.place, "on " + at("nodes", placed.node) + " its vertex " + std::to_string(i) +
+        file_.fail(source.where, "on " + at("nodes", placed.node) + " its vertex " + std::to_string(i) +
                                      " lies more than 1e9 m from the origin");
     return position;
   }

@@ -85,13 +85,13 @@ void load_cameras(File& file, const std::vector<PlacedNode>& nodes, const Moveme
 
 // textures.cpp. Refuses images that no honest file holds, before memory is asked for; `pixels_left` is
 // what may still be decoded.
-void check_image_size(const File& file, const std::string& place, uint32_t width, uint32_t height,
+void check_image_size(const File& file, const std::string& where, uint32_t width, uint32_t height,
                       size_t bytes, size_t pixels_left);
 // stb.cpp, jpeg.cpp. To 8-bit RGBA; colour profiles are ignored, as glTF wants it. Throw
 // UsageError.
-Texture decode_png(const File& file, const std::string& place, Bytes bytes, size_t pixels_left);
+Texture decode_png(const File& file, const std::string& where, Bytes bytes, size_t pixels_left);
 bool is_jpeg(Bytes bytes);
-Texture decode_jpeg(const File& file, const std::string& place, Bytes bytes, size_t pixels_left);
+Texture decode_jpeg(const File& file, const std::string& where, Bytes bytes, size_t pixels_left);
 std::vector<std::byte> encode_png(const Texture& texture);
 
 // tiny.cpp. tinygltf's Model of the checked description. Throws UsageError.

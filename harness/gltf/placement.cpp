@@ -21,17 +21,17 @@ std::vector<glm::dmat4> instance_transforms(const File& file, const PlacedNode& 
   const Json& node = file.json["nodes"][placed.node];
   const Json attributes =
       node.value("/extensions/EXT_mesh_gpu_instancing/attributes"_json_pointer, Json::object());
-  const std::string place = at("nodes", placed.node) + ".extensions.EXT_mesh_gpu_instancing.attributes";
+  const std::string where = at("nodes", placed.node) + ".extensions.EXT_mesh_gpu_instancing.attributes";
   size_t count = 0;
   auto read = [&](const char* name, int components) {
     if (!attributes.contains(name)) return std::vector<double>();
     std::vector<double> values =
-        read_numbers(file, attributes[name].get<size_t>(), components, place + "." + name);
+        read_numbers(file, attributes[name].get<size_t>(), components, where + "." + name);
     if (values.size() / static_cast<size_t>(components) > max_instances)
-      file.fail(place + "." + name, "has more than " + std::to_string(max_instances) + " elements");
+      file.fail(where + "." + name, "has more than " + std::to_string(max_instances) + " elements");
     const size_t found = values.size() / static_cast<size_t>(components);
     if (count != 0 && found != count)
-      file.fail(place + "." + name,
+      file.fail(where + "." + name,
                 "has " + std::to_string(found) + " elements, but others have " + std::to_string(count));
     count = found;
     return values;
@@ -51,12 +51,12 @@ std::vector<glm::dmat4> instance_transforms(const File& file, const PlacedNode& 
       pose.rotation = {rotations[4 * i], rotations[4 * i + 1], rotations[4 * i + 2], rotations[4 * i + 3]};
       const double length = glm::length(pose.rotation);
       if (!(length > 1e-6 && length < 1e6))
-        file.fail(place + ".ROTATION", "element " + std::to_string(i) + " is no unit quaternion");
+        file.fail(where + ".ROTATION", "element " + std::to_string(i) + " is no unit quaternion");
       pose.rotation /= length;
     }
     worlds.push_back(placed.world * matrix_of(pose));
     if (!is_finite(worlds.back()))
-      file.fail(place, "the transform of instance " + std::to_string(i) + " is not finite");
+      file.fail(where, "the transform of instance " + std::to_string(i) + " is not finite");
   }
   return worlds;
 }
@@ -64,13 +64,13 @@ std::vector<glm::dmat4> instance_transforms(const File& file, const PlacedNode& 
 std::vector<glm::dmat4> joint_matrices(const File& file, size_t skin, const std::vector<glm::dmat4>& worlds) {
   const Json& json = file.json["skins"][skin];
   const Json& joints = json["joints"];
-  const std::string place = at("skins", skin);
+  const std::string where = at("skins", skin);
   std::vector<glm::dmat4> inverses(joints.size(), glm::dmat4(1));
   if (json.contains("inverseBindMatrices")) {
     const std::vector<double> values =
-        read_numbers(file, json["inverseBindMatrices"].get<size_t>(), 16, place + ".inverseBindMatrices");
+        read_numbers(file, json["inverseBindMatrices"].get<size_t>(), 16, where + ".inverseBindMatrices");
     if (values.size() / 16 < joints.size())
-      file.fail(place + ".inverseBindMatrices", "has " + std::to_string(values.size() / 16) +
+      file.fail(where + ".inverseBindMatrices", "has " + std::to_string(values.size() / 16) +
                                                     " elements, but there are " +
                                                     std::to_string(joints.size()) + " joints");
     for (size_t i = 0; i < joints.size(); ++i)
@@ -78,7 +78,7 @@ std::vector<glm::dmat4> joint_matrices(const File& file, size_t skin, const std:
   }
   for (size_t i = 0; i < joints.size(); ++i) {
     inverses[i] = worlds[joints[i].get<size_t>()] * inverses[i];
-    if (!is_finite(inverses[i])) file.fail(place + "." + at("joints", i), "its transform is not finite");
+    if (!is_finite(inverses[i])) file.fail(where + "." + at("joints", i), "its transform is not finite");
   }
   return inverses;
 }
@@ -88,7 +88,7 @@ bool VertexTransforms::is_skinned(const tinygltf::Primitive& primitive) {
 }
 
 VertexTransforms::VertexTransforms(const File& file, const tinygltf::Primitive& primitive,
-                                   std::vector<glm::dmat4> joint_matrices, const std::string& place)
+                                   std::vector<glm::dmat4> joint_matrices, const std::string& where)
     : matrices_(std::move(joint_matrices)) {
   const size_t vertices =
       file.model.accessors[static_cast<size_t>(primitive.attributes.at("POSITION"))].count;
@@ -96,12 +96,12 @@ VertexTransforms::VertexTransforms(const File& file, const tinygltf::Primitive& 
     const std::string joints = "JOINTS_" + std::to_string(n), weights = "WEIGHTS_" + std::to_string(n);
     if (!primitive.attributes.contains(joints) || !primitive.attributes.contains(weights)) break;
     auto read = [&](const std::string& name) {
-      const std::string where = place + ".attributes." + name;
+      const std::string attribute = where + ".attributes." + name;
       std::vector<double> values =
-          read_numbers(file, static_cast<size_t>(primitive.attributes.at(name)), 4, where);
+          read_numbers(file, static_cast<size_t>(primitive.attributes.at(name)), 4, attribute);
       if (values.size() / 4 != vertices)
-        file.fail(where, "has " + std::to_string(values.size() / 4) + " elements, but there are " +
-                             std::to_string(vertices) + " positions");
+        file.fail(attribute, "has " + std::to_string(values.size() / 4) + " elements, but there are " +
+                                 std::to_string(vertices) + " positions");
       return values;
     };
     sets_.push_back({read(joints), read(weights)});
@@ -111,7 +111,7 @@ VertexTransforms::VertexTransforms(const File& file, const tinygltf::Primitive& 
       if (set.weights[i] == 0 && i % 4 != 0) continue;
       const double joint = set.joints[i];
       if (!(joint >= 0 && joint < static_cast<double>(matrices_.size()) && joint == std::floor(joint)))
-        file.fail(place + ".attributes." + joints,
+        file.fail(where + ".attributes." + joints,
                   "vertex " + std::to_string(i / 4) +
                       " hangs on a joint that its skin does not have; it has " +
                       std::to_string(matrices_.size()));

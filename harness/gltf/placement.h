@@ -26,7 +26,7 @@ class VertexTransforms {
   // By all sets of JOINTS_n and WEIGHTS_n that the primitive has; it has at least one (is_skinned). Weights
   // are brought to the sum 1; a vertex without any goes with its first joint.
   VertexTransforms(const File& file, const tinygltf::Primitive& primitive,
-                   std::vector<glm::dmat4> joint_matrices, const std::string& place);
+                   std::vector<glm::dmat4> joint_matrices, const std::string& where);
   static bool is_skinned(const tinygltf::Primitive& primitive);
 
   glm::dmat4 of(size_t vertex) const;

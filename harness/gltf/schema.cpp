@@ -216,18 +216,18 @@ class Checker {
         sizes_[lights_array] = array_size(*lights, "lights");
   }
 
-  Json object(const Json& value, const Fields& fields, const std::string& place) const {
-    if (!value.is_object()) file_.fail(place, "expected an object");
+  Json object(const Json& value, const Fields& fields, const std::string& where) const {
+    if (!value.is_object()) file_.fail(where, "expected an object");
     Json result = Json::object();
     for (const Field& field : fields) {
       auto found = value.find(field.key);
       if (found == value.end()) {
         if (field.required)
-          file_.fail(place.empty() ? "top level" : place, std::string("'") + field.key + "' is missing");
+          file_.fail(where.empty() ? "top level" : where, std::string("'") + field.key + "' is missing");
         continue;
       }
       if (field.lenient && !found->is_object()) continue;
-      result[field.key] = member(*found, field, place.empty() ? field.key : place + "." + field.key);
+      result[field.key] = member(*found, field, where.empty() ? field.key : where + "." + field.key);
     }
     return result;
   }
@@ -238,92 +238,92 @@ class Checker {
     return found != parent.end() && found->is_array() ? found->size() : 0;
   }
 
-  Json member(const Json& value, const Field& field, const std::string& place) const {
+  Json member(const Json& value, const Field& field, const std::string& where) const {
     switch (field.kind) {
       case Kind::integer:
-        return field.target ? index(value, field.target, place) : integer(value, field, place);
+        return field.target ? index(value, field.target, where) : integer(value, field, where);
       case Kind::number:
-        return in_range(value, field, place);
+        return in_range(value, field, where);
       case Kind::boolean:
-        if (!value.is_boolean()) file_.fail(place, "expected true or false");
+        if (!value.is_boolean()) file_.fail(where, "expected true or false");
         return value.get<bool>();
       case Kind::text:
-        return word(value, field, place);
+        return word(value, field, where);
       case Kind::numbers:
-        return number_array(value, field, place);
+        return number_array(value, field, where);
       case Kind::references:
-        return each(value, place, [&](const Json& item, const std::string& where) {
-          return index(item, field.target, where);
+        return each(value, where, [&](const Json& item, const std::string& at_item) {
+          return index(item, field.target, at_item);
         });
       case Kind::object:
-        return object(value, field.fields, place);
+        return object(value, field.fields, where);
       case Kind::objects:
-        return each(value, place, [&](const Json& item, const std::string& where) {
-          return object(item, field.fields, where);
+        return each(value, where, [&](const Json& item, const std::string& at_item) {
+          return object(item, field.fields, at_item);
         });
     }
     return {};
   }
 
   template <typename Read>
-  Json each(const Json& value, const std::string& place, Read&& read) const {
-    if (!value.is_array()) file_.fail(place, "expected an array");
+  Json each(const Json& value, const std::string& where, Read&& read) const {
+    if (!value.is_array()) file_.fail(where, "expected an array");
     Json result = Json::array();
     for (size_t i = 0; i < value.size(); ++i)
-      result.push_back(read(value[i], place + "[" + std::to_string(i) + "]"));
+      result.push_back(read(value[i], where + "[" + std::to_string(i) + "]"));
     return result;
   }
 
-  double in_range(const Json& value, const Field& field, const std::string& place) const {
-    if (!value.is_number()) file_.fail(place, "expected a number");
+  double in_range(const Json& value, const Field& field, const std::string& where) const {
+    if (!value.is_number()) file_.fail(where, "expected a number");
     auto found = value.get<double>();
     if (!(found >= field.low && found <= field.high)) {
       std::string expected =
           field.low == tiny ? "a number above 0" : "a number of at least " + Json(field.low).dump();
       if (field.high < std::numeric_limits<double>::max())
         expected += " and at most " + Json(field.high).dump();
-      file_.fail(place, "is " + value.dump() + ", expected " + expected);
+      file_.fail(where, "is " + value.dump() + ", expected " + expected);
     }
     return found;
   }
 
   // JSON does not tell 3 from 3.0.
-  int64_t integer(const Json& value, const Field& field, const std::string& place) const {
+  int64_t integer(const Json& value, const Field& field, const std::string& where) const {
     auto found = value.is_number() ? value.get<double>() : 0.5;
-    if (found != std::floor(found)) file_.fail(place, "expected an integer");
+    if (found != std::floor(found)) file_.fail(where, "expected an integer");
     if (!field.values.empty()) {
       if (std::find(field.values.begin(), field.values.end(), found) == field.values.end())
-        file_.fail(place, "is " + value.dump() + ", which is none of the values that glTF allows");
+        file_.fail(where, "is " + value.dump() + ", which is none of the values that glTF allows");
     } else if (!(found >= field.low && found <= field.high)) {
-      file_.fail(place, "is " + value.dump() + ", expected an integer from " +
+      file_.fail(where, "is " + value.dump() + ", expected an integer from " +
                             std::to_string(static_cast<int64_t>(field.low)) + " to " +
                             std::to_string(static_cast<int64_t>(field.high)));
     }
     return static_cast<int64_t>(found);
   }
 
-  int64_t index(const Json& value, const char* target, const std::string& place) const {
+  int64_t index(const Json& value, const char* target, const std::string& where) const {
     size_t count = sizes_.at(target);
     auto found = value.is_number() ? value.get<double>() : 0.5;
-    if (found != std::floor(found)) file_.fail(place, std::string("expected an index into ") + target);
+    if (found != std::floor(found)) file_.fail(where, std::string("expected an index into ") + target);
     if (!(found >= 0 && found < static_cast<double>(count)))
-      file_.fail(place, "is " + value.dump() + ", but the file has " + std::to_string(count) + " " + target);
+      file_.fail(where, "is " + value.dump() + ", but the file has " + std::to_string(count) + " " + target);
     return static_cast<int64_t>(found);
   }
 
-  std::string word(const Json& value, const Field& field, const std::string& place) const {
-    if (!value.is_string()) file_.fail(place, "expected a string");
+  std::string word(const Json& value, const Field& field, const std::string& where) const {
+    if (!value.is_string()) file_.fail(where, "expected a string");
     const auto& found = value.get_ref<const std::string&>();
     if (!field.words.empty() && std::find(field.words.begin(), field.words.end(), found) == field.words.end())
-      file_.fail(place, "unknown value '" + found + "'" + suggestion(found, field.words));
+      file_.fail(where, "unknown value '" + found + "'" + suggestion(found, field.words));
     return found;
   }
 
-  Json number_array(const Json& value, const Field& field, const std::string& place) const {
+  Json number_array(const Json& value, const Field& field, const std::string& where) const {
     if (!value.is_array() || value.size() != field.length)
-      file_.fail(place, "expected " + std::to_string(field.length) + " numbers");
-    return each(value, place,
-                [&](const Json& item, const std::string& where) { return in_range(item, field, where); });
+      file_.fail(where, "expected " + std::to_string(field.length) + " numbers");
+    return each(value, where,
+                [&](const Json& item, const std::string& at_item) { return in_range(item, field, at_item); });
   }
 
   const File& file_;
@@ -331,16 +331,16 @@ class Checker {
 };
 
 // The bench's own shapes: what each needs, and which of glTF's lights it is for other programs.
-void check_shape(const File& file, const Json& light, const std::string& place) {
+void check_shape(const File& file, const Json& light, const std::string& where) {
   const Json own = light.value("/extras/manylights"_json_pointer, Json::object());
   const std::string shape = own.value("shape", "");
   if (shape.empty()) return;
   const char* type = shape == "wedge" ? "spot" : "point";
   const char* size = shape == "box" ? "half_extents" : "half_length";
   if (light["type"] != type)
-    file.fail(place + ".type", "is '" + light["type"].get<std::string>() + "', expected '" + type +
+    file.fail(where + ".type", "is '" + light["type"].get<std::string>() + "', expected '" + type +
                                    "' for the shape '" + shape + "'");
-  if (!own.contains(size)) file.fail(place + ".extras.manylights", "'" + std::string(size) + "' is missing");
+  if (!own.contains(size)) file.fail(where + ".extras.manylights", "'" + std::string(size) + "' is missing");
 }
 
 // What the table cannot say: members that others ask for. tinygltf would stop at these without naming a
@@ -359,9 +359,9 @@ void check_companions(const File& file, const Json& checked) {
     if (std::string type = cameras[i]["type"]; !cameras[i].contains(type))
       file.fail(at("cameras", i), "'" + type + "' is missing");
   for (size_t i = 0; i < lights.size(); ++i) {
-    const std::string place = std::string(lights_array) + "[" + std::to_string(i) + "]";
-    if (lights[i]["type"] == "spot" && !lights[i].contains("spot")) file.fail(place, "'spot' is missing");
-    check_shape(file, lights[i], place);
+    const std::string where = std::string(lights_array) + "[" + std::to_string(i) + "]";
+    if (lights[i]["type"] == "spot" && !lights[i].contains("spot")) file.fail(where, "'spot' is missing");
+    check_shape(file, lights[i], where);
   }
   for (size_t m = 0; m < meshes.size(); ++m)
     for (size_t p = 0; p < meshes[m]["primitives"].size(); ++p)

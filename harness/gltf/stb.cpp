@@ -36,28 +36,28 @@ uint32_t big_endian(Bytes bytes, size_t offset) {
 // The reader calls whatever is too large for it unreadable: so the size is looked at before it is asked. A
 // PNG begins with eight bytes of its own and the chunk IHDR, which begins with width and height (ISO/IEC
 // 15948).
-void check_header(const File& file, const std::string& place, Bytes bytes, size_t pixels_left) {
+void check_header(const File& file, const std::string& where, Bytes bytes, size_t pixels_left) {
   constexpr std::string_view start("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
   constexpr size_t width_at = 16, height_at = 20, end = 24;
   if (bytes.size() < end || std::memcmp(bytes.data(), start.data(), start.size()) != 0) return;
-  check_image_size(file, place, big_endian(bytes, width_at), big_endian(bytes, height_at), bytes.size(),
+  check_image_size(file, where, big_endian(bytes, width_at), big_endian(bytes, height_at), bytes.size(),
                    pixels_left);
 }
 
 }  // namespace
 
-Texture decode_png(const File& file, const std::string& place, Bytes bytes, size_t pixels_left) {
+Texture decode_png(const File& file, const std::string& where, Bytes bytes, size_t pixels_left) {
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   auto size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
-  check_header(file, place, bytes, pixels_left);
+  check_header(file, where, bytes, pixels_left);
   if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-    file.fail(place, "not a PNG or JPEG that can be decoded: " + reason());
-  check_image_size(file, place, static_cast<uint32_t>(width), static_cast<uint32_t>(height), bytes.size(),
+    file.fail(where, "not a PNG or JPEG that can be decoded: " + reason());
+  check_image_size(file, where, static_cast<uint32_t>(width), static_cast<uint32_t>(height), bytes.size(),
                    pixels_left);
   std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
       stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
-  if (!decoded) file.fail(place, "the PNG cannot be decoded: " + reason());
+  if (!decoded) file.fail(where, "the PNG cannot be decoded: " + reason());
   Texture texture;
   texture.width = static_cast<uint32_t>(width);
   texture.height = static_cast<uint32_t>(height);

@@ -27,33 +27,33 @@ const char* other_format(Bytes bytes) {
   return nullptr;
 }
 
-Texture decode(const File& file, const std::string& place, Bytes bytes, size_t pixels_left) {
-  if (bytes.empty()) file.fail(place, "the image is empty");
-  if (bytes.size() > 0x7fffffff) file.fail(place, "the image is larger than 2 GiB");
+Texture decode(const File& file, const std::string& where, Bytes bytes, size_t pixels_left) {
+  if (bytes.empty()) file.fail(where, "the image is empty");
+  if (bytes.size() > 0x7fffffff) file.fail(where, "the image is larger than 2 GiB");
   if (const char* format = other_format(bytes))
-    file.fail(place, "expected a PNG or a JPEG, found " + std::string(format));
-  return is_jpeg(bytes) ? decode_jpeg(file, place, bytes, pixels_left)
-                        : decode_png(file, place, bytes, pixels_left);
+    file.fail(where, "expected a PNG or a JPEG, found " + std::string(format));
+  return is_jpeg(bytes) ? decode_jpeg(file, where, bytes, pixels_left)
+                        : decode_png(file, where, bytes, pixels_left);
 }
 
 }  // namespace
 
-void check_image_size(const File& file, const std::string& place, uint32_t width, uint32_t height,
+void check_image_size(const File& file, const std::string& where, uint32_t width, uint32_t height,
                       size_t bytes, size_t pixels_left) {
   size_t pixels = size_t{width} * height;
   std::string extent = std::to_string(width) + " x " + std::to_string(height) + " pixels";
-  if (pixels == 0) file.fail(place, "the image has no pixels");
+  if (pixels == 0) file.fail(where, "the image has no pixels");
   if (width > max_side || height > max_side)
-    file.fail(place, "the image is too large: " + extent + ", more than 16384 on a side");
+    file.fail(where, "the image is too large: " + extent + ", more than 16384 on a side");
   if (pixels > pixels_left)
-    file.fail(place, "the image is too large: " + extent + " are more than all textures may have together");
+    file.fail(where, "the image is too large: " + extent + " are more than all textures may have together");
   if (pixels / pixels_per_byte > bytes)
-    file.fail(place, extent + " cannot come out of " + std::to_string(bytes) + " bytes");
+    file.fail(where, extent + " cannot come out of " + std::to_string(bytes) + " bytes");
 }
 
 std::optional<Texture> TextureLoader::decoded(size_t image) {
   if (unreadable_.contains(image)) return std::nullopt;
-  const std::string place = at("images", image);
+  const std::string where = at("images", image);
   const Json& source = file_.json["images"][image];
   try {
     std::vector<std::byte> owned;
@@ -61,15 +61,15 @@ std::optional<Texture> TextureLoader::decoded(size_t image) {
     std::string name;
     if (source.contains("uri")) {
       const auto& uri = source["uri"].get_ref<const std::string&>();
-      owned = load_uri(file_, place + ".uri", uri);
+      owned = load_uri(file_, where + ".uri", uri);
       bytes = owned;
       if (!uri.starts_with("data:")) name = uri;
     } else if (source.contains("bufferView")) {
       bytes = view_bytes(file_, source["bufferView"].get<size_t>());
     } else {
-      file_.fail(place, "has neither a URI nor a buffer view");
+      file_.fail(where, "has neither a URI nor a buffer view");
     }
-    Texture texture = decode(file_, place, bytes, pixels_left_);
+    Texture texture = decode(file_, where, bytes, pixels_left_);
     pixels_left_ -= size_t{texture.width} * texture.height;
     texture.name = source.value("name", name);
     return texture;

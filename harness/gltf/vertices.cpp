@@ -14,12 +14,12 @@ int attribute_of(const tinygltf::Primitive& primitive, const std::string& name) 
 }
 
 std::vector<double> read_attribute(const File& file, int accessor, int components, size_t count,
-                                   const std::string& place) {
+                                   const std::string& where) {
   auto index = static_cast<size_t>(accessor);
   if (file.model.accessors[index].count != count)
-    file.fail(place, at("accessors", index) + " has " + std::to_string(file.model.accessors[index].count) +
+    file.fail(where, at("accessors", index) + " has " + std::to_string(file.model.accessors[index].count) +
                          " elements, but there are " + std::to_string(count) + " positions");
-  return read_numbers(file, index, components, place);
+  return read_numbers(file, index, components, where);
 }
 
 std::vector<glm::vec2> moved(const std::vector<double>& values, const TextureMapping& map) {
@@ -28,17 +28,17 @@ std::vector<glm::vec2> moved(const std::vector<double>& values, const TextureMap
          s = map.rotation == 0 ? 0 : std::sin(map.rotation);
   for (size_t i = 0; i < result.size(); ++i) {
     double u = values[2 * i] * map.scale.x, v = values[2 * i + 1] * map.scale.y;
-    glm::dvec2 place(c * u + s * v + map.offset.x, c * v - s * u + map.offset.y);
-    result[i] = glm::vec2(glm::clamp(place, -1e6, 1e6));
+    glm::dvec2 mapped(c * u + s * v + map.offset.x, c * v - s * u + map.offset.y);
+    result[i] = glm::vec2(glm::clamp(mapped, -1e6, 1e6));
   }
   return result;
 }
 
 // Linear, of three or four components. Integers stand for [0, 1] also where a file forgets to say so.
-std::vector<glm::vec4> read_colors(const File& file, int accessor, size_t count, const std::string& place) {
+std::vector<glm::vec4> read_colors(const File& file, int accessor, size_t count, const std::string& where) {
   const tinygltf::Accessor& source = file.model.accessors[static_cast<size_t>(accessor)];
   const int components = source.type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
-  const std::vector<double> values = read_attribute(file, accessor, components, count, place);
+  const std::vector<double> values = read_attribute(file, accessor, components, count, where);
   double one = 1;
   if (!source.normalized && source.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) one = 255;
   if (!source.normalized && source.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) one = 65535;
@@ -88,8 +88,8 @@ glm::dvec3 unit(const glm::dvec3& v) {
   return std::abs(length - 1) < 1e-6 ? v : v / length;
 }
 
-VertexSource::VertexSource(const File& file, const tinygltf::Primitive& primitive, std::string where)
-    : place(std::move(where)), positions(static_cast<size_t>(attribute_of(primitive, "POSITION"))) {
+VertexSource::VertexSource(const File& file, const tinygltf::Primitive& primitive, std::string used_in)
+    : where(std::move(used_in)), positions(static_cast<size_t>(attribute_of(primitive, "POSITION"))) {
   normals = attribute_of(primitive, "NORMAL");
   colors = attribute_of(primitive, "COLOR_0");
   for (size_t slot = 0; slot < texture_slots; ++slot) {
@@ -120,7 +120,7 @@ std::vector<double> VertexSource::key() const {
 }
 
 VertexAttributes::VertexAttributes(const File& file, const VertexSource& source) {
-  const std::string attributes = source.place + ".attributes.";
+  const std::string attributes = source.where + ".attributes.";
   std::vector<double> values = read_numbers(file, source.positions, 3, attributes + "POSITION");
   const size_t count = values.size() / 3;
   positions.resize(count);

@@ -12,9 +12,9 @@ namespace ml::gltf {
 
 // Which accessors a primitive's vertices come from, -1 for none, and how its material reads textures.
 struct VertexSource {
-  VertexSource(const File& file, const tinygltf::Primitive& primitive, std::string where);
+  VertexSource(const File& file, const tinygltf::Primitive& primitive, std::string used_in);
 
-  std::string place;  // for errors
+  std::string where;  // for errors
   size_t positions = 0;
   int normals = -1, tangents = -1, colors = -1;
   struct Coordinates {

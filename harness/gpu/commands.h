@@ -116,7 +116,7 @@ class Commands {
   // Copies; what does not fit is a std::logic_error.
   void transfer(const UploadBuffer& buffer);  // to the device-local copy, where there is one
   void read_image(const Image& image, const Buffer& into, uint32_t level = 0);  // tightly packed rows
-  void write_image(const Buffer& from, const Image& image);  // all levels, one behind the other
+  void write_image(const Buffer& from, const Image& image);  // all levels, one after the other
   void read_buffer(const Buffer& buffer, size_t bytes, const Buffer& into);  // into any kind of memory
 
   // Names the passes until the returned object dies, in times, traces and debuggers. Inside another span its
@@ -136,7 +136,7 @@ class Commands {
   [[nodiscard]] Span span(std::string_view name);
 
   // Passes until the returned object dies write nothing that another of them touches, though it may lie in
-  // the same image or buffer: no barriers stand between them, only one behind the last.
+  // the same image or buffer: no barriers stand between them, only one after the last.
   class Unordered {
    public:
     ~Unordered() { commands_.end_unordered(); }

@@ -17,7 +17,7 @@ struct Commands::Impl {
   void barrier(vk::PipelineStageFlags2 after = vk::PipelineStageFlagBits2::eAllCommands,
                vk::AccessFlags2 access = vk::AccessFlagBits2::eMemoryRead |
                                          vk::AccessFlagBits2::eMemoryWrite);
-  // The barrier behind a pass.
+  // The barrier after a pass.
   void pass_done() {
     if (!unordered) barrier();
   }
@@ -52,7 +52,7 @@ struct Commands::Impl {
   vk::raii::CommandPool pool;
   vk::raii::CommandPool second_pool = nullptr;  // with the first fork, as the parts but `before`
   std::array<vk::raii::CommandBuffer, 4> parts{nullptr, nullptr, nullptr, nullptr};
-  // Signalled behind `before`, waited for by `second`; signalled behind `second`, waited for by `after`.
+  // Signalled after `before`, waited for by `second`; signalled after `second`, waited for by `after`.
   vk::raii::Semaphore forked_off = nullptr, joined = nullptr;
   vk::raii::Fence fence;
   vk::raii::QueryPool stamps = nullptr;

@@ -80,7 +80,7 @@ std::string type_name(vk::PhysicalDeviceType type) {
   }
 }
 
-// Families and places in them of the two queues.
+// The families of the two queues, and their indices in these.
 struct QueueChoice {
   uint32_t main = UINT32_MAX;  // UINT32_MAX: there is none that does both graphics and compute
   uint32_t second = UINT32_MAX, second_index = 0;

@@ -19,10 +19,10 @@ Image::Image(Device& owner, const ImageDesc& desc, const std::string& name)
   if (const char* what = lacking(device, format, use, sampling))
     throw SystemError(fmt::format("{}: images of format {} of '{}' lack {}", name, in_words(format),
                                   device.info.name, what));
-  const auto most_levels = static_cast<uint32_t>(std::bit_width(std::max(width, height)));
-  if (wanted_levels == all_levels) desc_.levels = most_levels;
+  const auto max_levels = static_cast<uint32_t>(std::bit_width(std::max(width, height)));
+  if (wanted_levels == all_levels) desc_.levels = max_levels;
   ML_CHECK_GE(desc_.levels, 1);
-  ML_CHECK_LE(desc_.levels, is_depth(format) ? 1 : most_levels);
+  ML_CHECK_LE(desc_.levels, is_depth(format) ? 1 : max_levels);
   using Usage = vk::ImageUsageFlagBits;
   vk::ImageUsageFlags usage = Usage::eTransferSrc | Usage::eTransferDst | Usage::eSampled;
   if (use == ImageUse::storage || use == ImageUse::storage_attachment) usage |= Usage::eStorage;

@@ -10,7 +10,7 @@ struct Allocation {
   uint32_t type;
 };
 
-// Out of the first heap that has room: those of the best kind come first. Throws SystemError naming `name`
+// Out of the first heap that has space: those of the best kind come first. Throws SystemError naming `name`
 // when none has.
 Allocation allocate(const Device::Impl& device, const vk::MemoryRequirements& needs, MemoryKind kind,
                     const std::string& name);

@@ -1,7 +1,7 @@
 // Compute and raster programs, compiled for the values of their specialization constants. A device keeps what
 // it compiled: the same modules with the same constants and state are compiled once, so a sweep's points
 // share their programs. Their descriptor layouts come from reflection of the SPIR-V, so a pass names what it
-// binds. A texel buffer (usamplerBuffer) with the name of a buffer and "Quads" behind it shows that buffer's
+// binds. A texel buffer (usamplerBuffer) with the name of a buffer and "Quads" appended shows that buffer's
 // words, four a texel.
 #pragma once
 

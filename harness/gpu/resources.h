@@ -48,7 +48,7 @@ class Buffer {
 class UploadBuffer {
  public:
   UploadBuffer(Device& device, std::string name) : device_(&device), name_(std::move(name)) {}
-  // Makes room and returns exactly `bytes` writable bytes (0 is allowed; a buffer of 16 bytes is kept then).
+  // Makes space and returns exactly `bytes` writable bytes (0 is allowed; a buffer of 16 bytes is kept then).
   std::span<std::byte> map(size_t bytes);
   const Buffer& host() const { return *host_; }
   const Buffer& shader() const { return device_copy_ ? *device_copy_ : *host_; }
@@ -150,7 +150,7 @@ class Image {
   uint32_t levels() const { return desc_.levels; }
   uint32_t width(uint32_t level) const { return std::max(desc_.width >> level, 1u); }
   uint32_t height(uint32_t level) const { return std::max(desc_.height >> level, 1u); }
-  // Of all levels, one behind the other; of one.
+  // Of all levels, one after the other; of one.
   size_t bytes() const;
   size_t bytes(uint32_t level) const;
 

@@ -27,7 +27,7 @@ void begin_recording(const vk::raii::CommandBuffer& buffer) {
   buffer.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
 }
 
-// Both halves of the way of an image from one family to the other: the release behind what `from` did with
+// Both halves of the way of an image from one family to the other: the release after what `from` did with
 // it, the acquire before what `to` does. In between stands a semaphore, which needs no more than the stages.
 void change_owner(const Image& image, const vk::raii::CommandBuffer& from, uint32_t from_family,
                   const vk::raii::CommandBuffer& to, uint32_t to_family) {
@@ -125,7 +125,7 @@ void Commands::begin(Timing timing) {
   begin_recording(c.now());
   c.recording = true;
   if (c.timed()) {
-    // The second queue's stamps are reset here too: it begins behind a semaphore.
+    // The second queue's stamps are reset here too: it begins after a semaphore.
     c.now().resetQueryPool(*c.stamps, 0, max_stamps);
     c.stamp();
   }
@@ -146,7 +146,7 @@ void Commands::fork(const std::function<void()>& second, const std::function<voi
   c.hand_back();
 }
 
-// A semaphore makes all that was written before it visible behind it, in every stage: no barrier is needed
+// A semaphore makes all that was written before it visible after it, in every stage: no barrier is needed
 // across queues but for the owner of an image.
 void Commands::Impl::submit_parts() {
   const vk::CommandBufferSubmitInfo before(*of(Part::before)), second(*of(Part::second)),
@@ -157,7 +157,7 @@ void Commands::Impl::submit_parts() {
   }
   const vk::SemaphoreSubmitInfo fork_point(*forked_off, 0, all_stages), join_point(*joined, 0, all_stages);
   device.main.queue.submit2(vk::SubmitInfo2({}, {}, before, fork_point));
-  // Before `beside`, so that both begin together. Every wait is submitted behind its signal: in this order
+  // Before `beside`, so that both begin together. Every wait is submitted after its signal: in this order
   // one queue, which then is `second` too, comes to an end as well.
   device.second.queue.submit2(vk::SubmitInfo2({}, fork_point, second, join_point));
   const std::array rest{vk::SubmitInfo2({}, {}, beside), vk::SubmitInfo2({}, join_point, after)};
@@ -178,7 +178,7 @@ SubmissionTimes Commands::submit() {
   try {
     auto begin = std::chrono::steady_clock::now();
     c.submit_parts();
-    // A frame of a software device can take minutes; a hang is for the user to stop. The fence stands behind
+    // A frame of a software device can take minutes; a hang is for the user to stop. The fence stands after
     // all parts: the last one waits for the second queue.
     if (c.device.device.waitForFences(*c.fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
       throw SystemError("the device did not finish");
@@ -211,8 +211,8 @@ Commands::Span Commands::span(std::string_view name) {
   Impl& c = *impl_;
   if (is_inner(name)) throw std::logic_error(fmt::format("a slash in the name of the span '{}'", name));
   if (c.stamps_spans()) {
-    // Room for the last stamps of this span, of those around it, and of the submission: a span that ends must
-    // not throw.
+    // Space for the last stamps of this span, of those around it, and of the submission: a span that ends
+    // must not throw.
     ML_CHECK_LE(c.stamp_parts.size() + c.open_spans.size() + 3, max_stamps);
     const std::string around = c.open_spans.empty() ? "" : c.spans[c.open_spans.back()].name + "/";
     c.open_spans.push_back(c.spans.size());

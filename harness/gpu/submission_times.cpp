@@ -50,7 +50,7 @@ SubmissionTimes times_of(const StampClock& clock, std::span<const Stamp> stamps,
   if (stamps.empty()) return times;
   const Reader reader(clock, stamps);
   times.whole = reader.between(0, stamps.size() - 1);
-  // The time that the second queue may have: from the last stamp before the fork to the first behind it.
+  // The time that the second queue may have: from the last stamp before the fork to the first after it.
   double earliest = 0, latest = times.whole;
   for (size_t i = 0; i < stamps.size(); ++i) {
     if (stamps[i].part == Part::before) earliest = reader.since_begin(i);

@@ -16,7 +16,7 @@ struct LightAccount {
   uint32_t used = 0;     // LightSet::base()
   uint32_t dark = 0;     // intensity 0 in every channel: they could light nothing, and no algorithm sees them
   Rejections rejections;
-  // Lights of the file, in its order behind the first `limit`, that were not looked at.
+  // Lights of the file, in its order after the first `limit`, that were not looked at.
   uint32_t left_out = 0;
   uint32_t limit = 0;           // lights that were let in at most; 0: all
   bool limit_is_given = false;  // `limit` is the configuration's lights.count, else the bench's own bound

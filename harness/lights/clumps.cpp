@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/lights/law.h"
+#include "harness/lights/radius_distribution.h"
 
 namespace ml {
 namespace {

@@ -11,11 +11,11 @@
 namespace ml {
 
 // The dimensions of a light's random numbers: light i of seed s has the number unit_float(hash_u32(s, i,
-// dimension)), so it keeps its place, colour and script whatever the count is.
+// dimension)), so it keeps its position, colour and script whatever the count is.
 enum class LightDimension : uint32_t {
-  place_0,
-  place_1,
-  place_2,
+  position_0,
+  position_1,
+  position_2,
   lift,
   radius,
   hue,

@@ -38,14 +38,14 @@ bool spawn(const LightNumbers& number, double seconds, Light& light) {
   if (age >= kLitShare) return false;
   double fade = std::min({age * (1 / kFadeShare), (kLitShare - age) * (1 / kFadeShare), 1.0});
   scale_size(light, fade);
-  // Intensity goes with the square of the radius, as in the radius law.
+  // Intensity goes with the square of the radius, as where radii are chosen.
   light.intensity *= static_cast<float>(fade * fade);
   const glm::vec3& half = light.half_extents;
   const float thinnest = light.shape == LightShape::box ? std::min({half.x, half.y, half.z}) : light.radius;
   return thinnest >= kMinLightRadius;
 }
 
-// The lights of a clump circle together, whatever the placement: 2 to 6 m about their places, 0.02 to 0.06
+// The lights of a clump circle together, whatever the placement: 2 to 6 m about their positions, 0.02 to 0.06
 // turns a second, either way round. The others drift.
 bool circle(uint32_t seed_hash, const LightNumbers& number, double seconds, Light& light) {
   std::optional<uint32_t> clump = clump_of(number);

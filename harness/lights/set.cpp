@@ -9,11 +9,11 @@
 #include "harness/base/error.h"
 #include "harness/base/random.h"
 #include "harness/lights/clumps.h"
-#include "harness/lights/law.h"
 #include "harness/lights/placement.h"
-#include "harness/lights/places.h"
+#include "harness/lights/positions.h"
+#include "harness/lights/radius_distribution.h"
 #include "harness/lights/script.h"
-#include "harness/lights/shape_law.h"
+#include "harness/lights/shape_distribution.h"
 #include "harness/lights/stage.h"
 
 namespace ml {
@@ -22,7 +22,7 @@ namespace {
 constexpr uint32_t kMaxLights = 1048576;
 constexpr float kRoomRadius = 8;  // m, of placement `room`
 
-// Placements that bring their own law of radii.
+// Placements that bring their own distribution of radii.
 bool has_own_radii(std::optional<Placement> placement) {
   return placement == Placement::clumps || placement == Placement::stage || placement == Placement::room;
 }
@@ -30,7 +30,7 @@ bool has_own_radii(std::optional<Placement> placement) {
 LightSpec adapted(LightSpec spec, const Scene& scene) {
   const LightDefaults& defaults = scene.light_defaults;
   spec = completed(spec, defaults);
-  const bool placed = spec.placement != Placement::gltf;  // else sizes and places are the file's
+  const bool placed = spec.placement != Placement::gltf;  // else sizes and positions are the file's
   if (placed && defaults.fixed_placement) spec.placement = defaults.placement;
   if (placed && spec.radius == 0 && spec.base_size == 0) spec.radius = defaults.radius;
   if (placed && spec.height == 0) spec.height = defaults.height;
@@ -45,9 +45,9 @@ LightSpec adapted(LightSpec spec, const Scene& scene) {
 glm::vec3 colour_of_hue(float hue) {
   glm::vec3 colour;
   for (int channel = 0; channel < 3; ++channel) {
-    float place = hue * 6 + static_cast<float>(6 - 2 * channel);
-    place -= 6 * std::floor(place / 6);
-    colour[channel] = 0.4f + 0.6f * std::clamp(std::abs(place - 3) - 1, 0.0f, 1.0f);
+    float position = hue * 6 + static_cast<float>(6 - 2 * channel);
+    position -= 6 * std::floor(position / 6);
+    colour[channel] = 0.4f + 0.6f * std::clamp(std::abs(position - 3) - 1, 0.0f, 1.0f);
   }
   return colour * (3 / (colour.x + colour.y + colour.z));
 }
@@ -71,7 +71,7 @@ void check_stage(const LightSpec& spec) {
       "wedge_fraction or box_fraction");
 }
 
-// m, the s of the run's law of radii.
+// m, the s of the run's distribution of radii.
 double smallest_radius(const LightSpec& spec, const Scene& scene) {
   if (spec.radius > 0) return spec.radius;
   const Placement placement = *spec.placement;
@@ -196,14 +196,14 @@ void LightSet::place_lights(const Scene& scene) {
   size_ = static_cast<float>(smallest_radius(spec_, scene));
   if (spec_.placement == Placement::room) rooms_of(scene, Placement::room);
   if (spec_.count == 0) return;
-  const LightPlaces places(spec_, scene);
+  const LightPositions positions(spec_, scene);
   for (uint32_t i = 0; i < spec_.count; ++i) {
     LightNumbers number(seed_hash, i);
     Light light;
     light.radius = spec_.radius > 0
                        ? spec_.radius
                        : pareto_radius(number(LightDimension::radius), size_, spec_.radius_ratio);
-    light.position = places.at(i, light.radius);
+    light.position = positions.at(i, light.radius);
     const float ball_radius = light.radius;
     give_shape(shape_of(number, spec_), number, light);
     const float lit_radius = light.shape == LightShape::box ? ball_radius : light.radius;

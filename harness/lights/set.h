@@ -1,4 +1,4 @@
-// Many lights from a few numbers: radius law, placement, sizing and scripts. Pure functions of the
+// Many lights from a few numbers: radii, placement, sizing and scripts. Pure functions of the
 // description, the scene and the frame.
 #pragma once
 
@@ -28,13 +28,13 @@ struct LightSpec {
   // placements make `count` lights all the same.
   bool auto_count = false;
   Sizing sizing = Sizing::const_overdraw;
-  // m, s0 of the radius law at 65,536 lights. 0: the scene's own (scenes.md), or for a glTF level the size
-  // that gives about 3 lights per visible point by the overdraw formula of the placement.
+  // m, s0 of the radius distribution at 65,536 lights. 0: the scene's own (scenes.md), or for a glTF level
+  // the size that gives about 3 lights per visible point by the overdraw formula of the placement.
   float base_size = 0;
   // Largest radius / smallest, [1, 1000]; 0: the scene's own, and for `clumps`, `stage` and `room` the
   // placement's own.
   float radius_ratio = 0;
-  float radius = 0;  // m, > 0: every light has this radius, and the law is not used
+  float radius = 0;  // m, > 0: every light has this radius, and no distribution is used
   // m, placements `triangle` and `area`: > 0 puts every light exactly this far along the surface normal.
   float height = 0;
   // [0, 1] each, [0, 1] together: this part of the lights (by hash) have the shape; the rest are omni.
@@ -74,11 +74,11 @@ class LightSet {
   LightSet(const LightSpec& spec, const Scene& scene);
 
   // The lights that shine in frame `frame` of a path of `frames` frames that lasts `duration` seconds, in
-  // ascending order of their stable identity. drift: each light orbits its place within its own radius.
+  // ascending order of their stable identity. drift: each light orbits its position within its own radius.
   // spawn: each light has a seeded life and pause, and fades in and out by its size (scale_size); about 70 %
   // shine at once. orbit: the lights of a clump circle together, those of no clump drift, and all come and go
   // as with spawn. A camera that stands still (duration 0) runs at 60 frames a second, so that its lights
-  // still move. Never returns a light that rejection_reason() refuses. `identity`: the place of each in
+  // still move. Never returns a light that rejection_reason() refuses. `identity`: the index of each in
   // base(), which is the same light's in every frame; may be null. Reuses both; allocates nothing once they
   // have their capacity, unless nodes carry lights: those are moved first (a light whose node has scale 0
   // does not shine in that frame).

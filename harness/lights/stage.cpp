@@ -24,8 +24,8 @@ void aim(Random& random, double tilt, Light& light) {
   light.side = glm::vec3(glm::dvec3(-along.z, 0, along.x));
 }
 
-void set_cone(Random& random, double least, double most, Light& light) {
-  double outer = between(random, least, most) * kDegree;
+void set_cone(Random& random, double min_degrees, double max_degrees, Light& light) {
+  double outer = between(random, min_degrees, max_degrees) * kDegree;
   light.outer_angle = static_cast<float>(outer);
   light.inner_angle = static_cast<float>(0.7 * outer);
 }

@@ -113,9 +113,9 @@ double quantile(std::span<const double> samples, double p) {
   keep_finite(samples, kept);
   if (kept.empty() || std::isnan(p)) return nan;
   std::sort(kept.begin(), kept.end());
-  double place = std::clamp(p, 0.0, 1.0) * static_cast<double>(kept.size() - 1);
-  auto below = static_cast<size_t>(place);
-  double part = place - static_cast<double>(below);
+  double rank = std::clamp(p, 0.0, 1.0) * static_cast<double>(kept.size() - 1);
+  auto below = static_cast<size_t>(rank);
+  double part = rank - static_cast<double>(below);
   if (part == 0) return kept[below];
   double low = kept[below], high = kept[below + 1];
   return std::clamp(low * (1 - part) + high * part, low, high);

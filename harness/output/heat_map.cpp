@@ -99,11 +99,11 @@ class HeatMap {
                                      : 0;
       notes_.push_back({false, class_colors[i], fmt::format("{} {:.1f} %", style_.classes[i], share)});
     }
-    const char* place = style_.block > 1 ? "tile" : "pixel";
+    const char* element = style_.block > 1 ? "tile" : "pixel";
     if (marks_maximum())
       notes_.push_back(
           {true, ink,
-           fmt::format("maximum {:.6g} at {} ({}, {})", summary_.maximum, place, summary_.x, summary_.y)});
+           fmt::format("maximum {:.6g} at {} ({}, {})", summary_.maximum, element, summary_.x, summary_.y)});
     else if (!has_classes() && summary_.valued > 0)
       notes_.push_back({false, zero_color, "all values are 0"});
     if (summary_.without_value > 0 || summary_.valued == 0)
@@ -115,8 +115,8 @@ class HeatMap {
     }
     if (strange > 0)
       notes_.push_back({false, not_finite_color,
-                        fmt::format("{}: {} {}{}", has_classes() ? "no class" : "not finite", strange, place,
-                                    strange > 1 ? "s" : "")});
+                        fmt::format("{}: {} {}{}", has_classes() ? "no class" : "not finite", strange,
+                                    element, strange > 1 ? "s" : "")});
   }
 
   void draw_map(Canvas& canvas) const {

@@ -59,19 +59,19 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-LightRow parse_row(std::string_view line, size_t index, const std::string& place) {
+LightRow parse_row(std::string_view line, size_t index, const std::string& where) {
   std::vector<std::string_view> cells = split(line, ',');
   if (cells.size() != columns)
-    throw UsageError(fmt::format("{}: expected {} columns, found {}", place, columns, cells.size()));
+    throw UsageError(fmt::format("{}: expected {} columns, found {}", where, columns, cells.size()));
   if (cells[0] != std::to_string(index))
-    throw UsageError(fmt::format("{}: expected index {}, found '{}'", place, index, cells[0]));
+    throw UsageError(fmt::format("{}: expected index {}, found '{}'", where, index, cells[0]));
   LightRow row;
   row.shape = cells[shape_column];
   if (std::find(shapes.begin(), shapes.end(), row.shape) == shapes.end())
     throw UsageError(
-        fmt::format("{}: expected shape {}, found '{}'", place, fmt::join(shapes, ", "), row.shape));
+        fmt::format("{}: expected shape {}, found '{}'", where, fmt::join(shapes, ", "), row.shape));
   if (cells[probe_column] != "0" && cells[probe_column] != "1")
-    throw UsageError(fmt::format("{}: column {}: expected 0 or 1, found '{}'", place, probe_column + 1,
+    throw UsageError(fmt::format("{}: column {}: expected 0 or 1, found '{}'", where, probe_column + 1,
                                  cells[probe_column]));
   row.probe = cells[probe_column] == "1";
   std::array<float*, columns> numbers = numbers_of(row);
@@ -80,7 +80,7 @@ LightRow parse_row(std::string_view line, size_t index, const std::string& place
     const char *begin = cells[c].data(), *end = begin + cells[c].size();
     auto [stop, problem] = std::from_chars(begin, end, *numbers[c]);
     if (problem != std::errc() || stop != end || !std::isfinite(*numbers[c]))
-      throw UsageError(fmt::format("{}: column {}: expected a number, found '{}'", place, c + 1, cells[c]));
+      throw UsageError(fmt::format("{}: column {}: expected a number, found '{}'", where, c + 1, cells[c]));
   }
   return row;
 }

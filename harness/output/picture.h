@@ -61,7 +61,7 @@ struct HeatMapStyle {
   // When not empty (at most 8), values are classes 0, 1, ...: qualitative colours, legend with these names
   // and their shares.
   std::vector<std::string> classes{};
-  std::string unit{};  // put behind the title: "[ms]"
+  std::string unit{};  // put after the title: "[ms]"
 };
 // Throws SystemError; std::invalid_argument for a picture of several channels, more than 8 classes, or a map
 // above 2^16 pixels a side.

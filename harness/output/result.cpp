@@ -127,23 +127,23 @@ void check_laps(const json& one, const json& laps, const std::string& path,
           fmt::format("{}[{}]: expected {} frames, found {}", path, lap, frames, laps[lap].size()));
 }
 
-void check_rows(const json& one, const std::string& place, const char* group,
+void check_rows(const json& one, const std::string& where, const char* group,
                 std::vector<std::string>& violations) {
   for (const auto& [name, laps] : one[group].items())
-    check_laps(one, laps, fmt::format("{}.{}.{}", place, group, name), violations);
+    check_laps(one, laps, fmt::format("{}.{}.{}", where, group, name), violations);
 }
 
-void check_case(const json& one, const std::string& place, bool complete,
+void check_case(const json& one, const std::string& where, bool complete,
                 std::vector<std::string>& violations) {
-  check_rows(one, place, "cpu_ms", violations);
-  check_rows(one, place, "gpu_ms", violations);
+  check_rows(one, where, "cpu_ms", violations);
+  check_rows(one, where, "gpu_ms", violations);
   if (one.contains("overlap") && !one["overlap"]["ms"].empty())
-    check_laps(one, one["overlap"]["ms"], place + ".overlap.ms", violations);
+    check_laps(one, one["overlap"]["ms"], where + ".overlap.ms", violations);
   size_t frames = one["frames"].size();
   for (const auto& [name, numbers] : one["counters"].items())
     if (complete ? numbers.size() != frames : numbers.size() > frames)
       violations.push_back(
-          fmt::format("{}.counters.{}: expected {} frames, found {}", place, name, frames, numbers.size()));
+          fmt::format("{}.counters.{}: expected {} frames, found {}", where, name, frames, numbers.size()));
 }
 
 }  // namespace
@@ -242,10 +242,10 @@ std::vector<std::string> result_violations(const json& document) {
   std::set<std::string> ids;
   for (size_t i = 0; i < document["cases"].size(); ++i) {
     const json& one = document["cases"][i];
-    std::string place = fmt::format("$.cases[{}]", i);
+    std::string where = fmt::format("$.cases[{}]", i);
     if (!ids.insert(one["id"].get<std::string>()).second)
-      violations.push_back(fmt::format("{}.id: '{}' is there twice", place, one["id"].get<std::string>()));
-    check_case(one, place, document["complete"].get<bool>(), violations);
+      violations.push_back(fmt::format("{}.id: '{}' is there twice", where, one["id"].get<std::string>()));
+    check_case(one, where, document["complete"].get<bool>(), violations);
   }
   return violations;
 }

@@ -198,7 +198,7 @@ std::string two_digits(double ratio) {
   return fmt::format("{:.2f}", ratio);
 }
 
-// What stands behind the medians, by how many repeats the cases have.
+// What stands after the medians, by how many repeats the cases have.
 std::string spread_text(const std::vector<CaseResult>& cases) {
   bool interval = false;
   std::set<uint32_t> few;

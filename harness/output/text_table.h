@@ -18,7 +18,7 @@ struct TextTable {
   size_t grouped = 0;
 };
 
-// One line a row. Nothing stands behind the last text of a line.
+// One line a row. Nothing stands after the last text of a line.
 std::string whole_table(const TextTable& table);
 // The whole table where no line is longer than `width` (letters, > 0); else one table below the other, each
 // with as many columns as fit, in order, and with the labels. A column or a group's line that does not fit

@@ -32,9 +32,9 @@ float automatic_exposure(const Picture& picture, float white) {
     if (!color.has_nan() && !color.has_infinity() && color.luminance() > 0) lit.push_back(color.luminance());
   }
   if (lit.empty()) return 1;
-  auto place = lit.begin() + static_cast<ptrdiff_t>((lit.size() - 1) * 99 / 100);
-  std::nth_element(lit.begin(), place, lit.end());
-  return static_cast<float>(std::clamp(white / *place, double{FLT_MIN}, double{FLT_MAX}));
+  auto percentile = lit.begin() + static_cast<ptrdiff_t>((lit.size() - 1) * 99 / 100);
+  std::nth_element(lit.begin(), percentile, lit.end());
+  return static_cast<float>(std::clamp(white / *percentile, double{FLT_MIN}, double{FLT_MAX}));
 }
 
 }  // namespace

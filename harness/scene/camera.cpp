@@ -125,12 +125,12 @@ bool CameraPath::cuts(uint32_t frame, uint32_t frames) const {
   return motions.jumps(carrier->node, motions.time_of(frame - 1, frames), motions.time_of(frame, frames));
 }
 
-std::vector<glm::dvec3> CameraPath::places(uint32_t frames) const {
-  std::vector<glm::dvec3> places;
+std::vector<glm::dvec3> CameraPath::positions(uint32_t frames) const {
+  std::vector<glm::dvec3> positions;
   // The picture and its depth range move no camera.
   for (uint32_t frame = 0; frame < frames; ++frame)
-    places.emplace_back(sample(frame, frames, 1, 1, 0.1f, 1).position);
-  return places;
+    positions.emplace_back(sample(frame, frames, 1, 1, 0.1f, 1).position);
+  return positions;
 }
 
 }  // namespace ml

@@ -96,7 +96,7 @@ struct CameraPath {
   // first.
   bool cuts(uint32_t frame, uint32_t frames) const;
   // The camera's positions in `frames` frames.
-  std::vector<glm::dvec3> places(uint32_t frames) const;
+  std::vector<glm::dvec3> positions(uint32_t frames) const;
 };
 
 }  // namespace ml

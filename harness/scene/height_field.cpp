@@ -9,7 +9,7 @@ HeightField::HeightField(int cells, double cell, const std::function<double(doub
     : cells_(cells), cell_(cell) {
   heights_.reserve(static_cast<size_t>(cells + 1) * (cells + 1));
   for (int k = 0; k <= cells; ++k) {
-    for (int i = 0; i <= cells; ++i) heights_.push_back(quantised(height(place(i), place(k))));
+    for (int i = 0; i <= cells; ++i) heights_.push_back(quantised(height(coordinate(i), coordinate(k))));
   }
 }
 
@@ -50,14 +50,14 @@ void HeightField::build(MeshBuilder& mesh,
       int back = std::max(k - 1, 0), front = std::min(k + 1, cells_);
       double slope_x = (at(right, k) - at(left, k)) / (cell_ * (right - left));
       double slope_z = (at(i, front) - at(i, back)) / (cell_ * (front - back));
-      vertices.push_back(mesh.vertex({place(i), at(i, k), place(k)}, {-slope_x, 1, -slope_z}));
+      vertices.push_back(mesh.vertex({coordinate(i), at(i, k), coordinate(k)}, {-slope_x, 1, -slope_z}));
     }
   }
   auto index = [&](int i, int k) { return vertices[static_cast<size_t>(k) * (cells_ + 1) + i]; };
   for (int k = 0; k < cells_; ++k) {
     for (int i = 0; i < cells_; ++i) {
       auto [low, high] = std::minmax({at(i, k), at(i + 1, k), at(i, k + 1), at(i + 1, k + 1)});
-      uint32_t chosen = material(place(i) + 0.5 * cell_, place(k) + 0.5 * cell_, high - low);
+      uint32_t chosen = material(coordinate(i) + 0.5 * cell_, coordinate(k) + 0.5 * cell_, high - low);
       if (falling(i, k)) {
         mesh.smooth_triangle(index(i, k), index(i, k + 1), index(i + 1, k + 1), chosen);
         mesh.smooth_triangle(index(i, k), index(i + 1, k + 1), index(i + 1, k), chosen);

@@ -29,7 +29,7 @@ class HeightField {
   double at(int i, int k) const { return heights_[static_cast<size_t>(k) * (cells_ + 1) + i]; }
   // The diagonal from (i, k) to (i + 1, k + 1), or the other: the one whose ends differ less.
   bool falling(int i, int k) const;
-  double place(int i) const { return i * cell_ - half_size(); }
+  double coordinate(int i) const { return i * cell_ - half_size(); }
 
   int cells_;
   double cell_;                  // m

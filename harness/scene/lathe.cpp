@@ -10,8 +10,8 @@ void build_lathe(MeshBuilder& mesh, const glm::dvec3& foot, std::span<const glm:
     const glm::dvec2 low = profile[ring], high = profile[ring + 1];
     // Outwards, across the profile.
     const glm::dvec2 across(high.y - low.y, low.x - high.x);
-    auto vertex = [&](const glm::dvec2& point, double place) {
-      double turns = place / sides, c = cosine_of_turns(turns), s = sine_of_turns(turns);
+    auto vertex = [&](const glm::dvec2& point, double step) {
+      double turns = step / sides, c = cosine_of_turns(turns), s = sine_of_turns(turns);
       return mesh.vertex(foot + glm::dvec3(point.x * c, point.y, -point.x * s),
                          {across.x * c, across.y, -across.x * s});
     };

@@ -1,4 +1,4 @@
-// Lights as the scene has them: shape, place, radius of influence and radiant intensity.
+// Lights as the scene has them: shape, position, radius of influence and radiant intensity.
 //
 // What a light gives to a surface point p with normal N, with q the nearest point of its source to p, d =
 // |p - q| and L the direction from p to q; nothing unless N.L > 0. With d < 1e-6 m the light has no direction
@@ -13,8 +13,8 @@
 //   wedge    A spot whose source is that segment, `side` across `direction`: the cone stands on q. Volume: in
 //            the spot's sector swept along the segment. Without a length it is exactly a spot.
 //   box      The source is the position. The window is the product of (1 - (l/h)^4)^2 over the three axes, l
-//            the place of p along the axis and h the half extent, 0 at and outside the faces. The axes are
-//            side, cross(direction, side) and direction: right-handed. Volume: the box.
+//            the coordinate of p along the axis and h the half extent, 0 at and outside the faces. The axes
+//            are side, cross(direction, side) and direction: right-handed. Volume: the box.
 //
 // A probe light (`probe`, in any shape) stands for an environment probe: ambient light in the shape's volume,
 // from all sides at once. It gives intensity (here W/m^2) * W [* cone factor] to every surface point in its
@@ -67,7 +67,7 @@ void make_box(Light& light, const glm::vec3& half_extents);
 // Puts the light where a node of a level stands, with its directions: the node's -z is the direction, its x
 // the side. Scale and reflection leave the shape alone; where a sheared node's axes are not at right angles,
 // the direction stays and the side gives way. False, and the light as it was, where the node's scale is 0 and
-// it has no place or no directions. `world` in metres, relative to the scene's origin.
+// it has no position or no directions. `world` in metres, relative to the scene's origin.
 bool place_on_node(Light& light, const glm::dmat4& world);
 
 // The light `factor` times as large: radius, and half length or half extents where there are any.

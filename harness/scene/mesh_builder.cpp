@@ -31,7 +31,7 @@ uint32_t MeshBuilder::add_material(const Material& material) {
 }
 
 uint32_t MeshBuilder::vertex(const glm::dvec3& position, const glm::dvec3& normal) {
-  // Adding +0 turns -0 into +0: one place has one bit pattern.
+  // Adding +0 turns -0 into +0: one position has one bit pattern.
   glm::vec3 p = glm::vec3(quantised(position)) + glm::vec3(0);
   glm::vec3 n = glm::vec3(normal / std::sqrt(glm::dot(normal, normal))) + glm::vec3(0);
   auto [found, is_new] =

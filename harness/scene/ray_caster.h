@@ -48,7 +48,7 @@ class RayCaster {
   };
   struct Node {
     glm::dvec3 min, max;
-    uint32_t first = 0;  // leaf: place in order_; inner: the left child, the right one follows it
+    uint32_t first = 0;  // leaf: index in order_; inner: the left child, the right one follows it
     uint32_t count = 0;  // triangles of a leaf, 0 for an inner node
   };
 

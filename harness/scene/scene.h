@@ -118,7 +118,7 @@ struct Scene {
   std::vector<Light> lights;  // the file's own (KHR_lights_punctual), for placement `gltf`
   // The node of `motions` that carries each of `lights`, -1 where it stands still; empty where all do.
   std::vector<int> light_nodes;
-  Rejections rejected_lights;     // further lights of the file, which cannot be given a place or a radius
+  Rejections rejected_lights;     // further lights of the file, which cannot be given a position or a radius
   std::vector<CameraPath> paths;  // the first is `default`
   // Null where nothing moves. The level as it stands here is that of motions->begin().
   std::shared_ptr<const NodeMotions> motions;

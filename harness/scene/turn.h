@@ -4,7 +4,7 @@
 
 namespace ml {
 
-// `value` less the nearest integer, for |value| < 2^51: adding 1.5 * 2^52 leaves no room for a fraction.
+// `value` less the nearest integer, for |value| < 2^51: adding 1.5 * 2^52 leaves no bits for a fraction.
 // (std::floor is a library call on processors of 2003, which the program is built for.)
 inline double from_nearest(double value) {
   return value - ((value + 0x1.8p52) - 0x1.8p52);

@@ -68,8 +68,8 @@ void build_arena_house(MeshBuilder& mesh, const ArenaMaterials& materials) {
   house.box({-kRoomHalf, 0, -kRoomHalf}, {kRoomHalf, 0.02, kRoomHalf}, materials.wood[1], MeshBuilder::top);
   for (double x : {-3.2, 3.2})
     mesh.prism(object(x, 0), kRoomHeight - 0.02, 0.3, 0.25, 10, materials.concrete);
-  for (glm::dvec2 place : {glm::dvec2(-4.9, -4.8), {-3.4, -5}, {4.9, -4.6}, {4.8, 4.7}, {-5, 4.9}})
-    build_crate(mesh, materials, random, object(place.x, place.y), {0.2, 1}, 1.1);
+  for (glm::dvec2 position : {glm::dvec2(-4.9, -4.8), {-3.4, -5}, {4.9, -4.6}, {4.8, 4.7}, {-5, 4.9}})
+    build_crate(mesh, materials, random, object(position.x, position.y), {0.2, 1}, 1.1);
   house.box({-1.2, 0.7, -4.6}, {1.2, 0.8, -3.6}, materials.wood[0]);
   for (double x : {-1.1, 1.1})
     house.box({x - 0.05, 0.02, -4.5}, {x + 0.05, 0.7, -3.7}, materials.metal, kNoBottom);
@@ -81,7 +81,7 @@ Scene make_arena(const SceneDescription& description, uint32_t seed) {
   MeshBuilder mesh;
   ArenaMaterials materials = add_materials(mesh);
   std::vector<CameraPath> paths = camera_paths(description);
-  const std::vector<glm::dvec3> keep_clear = paths[0].places(400);
+  const std::vector<glm::dvec3> keep_clear = paths[0].positions(400);
   Random ground(hash_u32(seed, 51)), objects(hash_u32(seed, 52));
   build_arena_ground(mesh, materials, ground);
   build_arena_house(mesh, materials);

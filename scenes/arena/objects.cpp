@@ -31,7 +31,7 @@ void build_crates(MeshBuilder& mesh, const ArenaMaterials& materials, Random& ra
 
 // Local z runs up the ramp, to a landing.
 void build_ramp(MeshBuilder& mesh, const ArenaMaterials& materials, Random& random, const glm::dvec3& foot) {
-  TurnedMesh place(mesh, foot, any_way(random));
+  TurnedMesh turned(mesh, foot, any_way(random));
   double half = between(random, 0.7, 1.1), length = between(random, 1.6, 2.2);
   double height = between(random, 0.8, 1.5), level = 0.5;
   std::array<glm::dvec3, 8> corners;
@@ -40,30 +40,30 @@ void build_ramp(MeshBuilder& mesh, const ArenaMaterials& materials, Random& rand
     corners[i] = {i & 1 ? half : -half, i & 2 ? (far ? height : 0.04) : 0, far ? level : level - length};
   }
   uint32_t material = random.below(2) == 0 ? materials.concrete : materials.wood[0];
-  place.block(corners, material, kNoBottom);
-  place.box({-half, 0, level}, {half, height, level + 1}, material, kNoBottom);
+  turned.block(corners, material, kNoBottom);
+  turned.box({-half, 0, level}, {half, height, level + 1}, material, kNoBottom);
   for (double side : {-1.0, 1.0}) {
     double x = side * (half - 0.06);
-    place.box({x - 0.04, height, level + 0.9}, {x + 0.04, height + 0.9, level + 0.98}, materials.metal,
-              kNoBottom);
+    turned.box({x - 0.04, height, level + 0.9}, {x + 0.04, height + 0.9, level + 0.98}, materials.metal,
+               kNoBottom);
   }
-  place.box({-half, height + 0.82, level + 0.91}, {half, height + 0.9, level + 0.97}, materials.metal);
+  turned.box({-half, height + 0.82, level + 0.91}, {half, height + 0.9, level + 0.97}, materials.metal);
 }
 
 void build_wall(MeshBuilder& mesh, const ArenaMaterials& materials, Random& random, const glm::dvec3& foot) {
-  TurnedMesh place(mesh, foot, any_way(random));
+  TurnedMesh turned(mesh, foot, any_way(random));
   double half = between(random, 1.2, 2.1), height = between(random, 1.2, 2.8);
   uint32_t material = random.below(3) == 0 ? materials.concrete : materials.plaster;
-  place.box({-half, 0, -0.15}, {half, height, 0.15}, material, kNoBottom);
-  place.box({-half - 0.05, height, -0.22}, {half + 0.05, height + 0.12, 0.22}, materials.roof);
+  turned.box({-half, 0, -0.15}, {half, height, 0.15}, material, kNoBottom);
+  turned.box({-half - 0.05, height, -0.22}, {half + 0.05, height + 0.12, 0.22}, materials.roof);
   for (double end : {-half, half}) {
-    place.box({end - 0.25, 0, -0.25}, {end + 0.25, height - 0.25, 0.25}, materials.concrete, kNoBottom);
+    turned.box({end - 0.25, 0, -0.25}, {end + 0.25, height - 0.25, 0.25}, materials.concrete, kNoBottom);
   }
 }
 
 // The ridge runs along local z; open in front.
 void build_tent(MeshBuilder& mesh, const ArenaMaterials& materials, Random& random, const glm::dvec3& foot) {
-  TurnedMesh place(mesh, foot, any_way(random));
+  TurnedMesh turned(mesh, foot, any_way(random));
   double half = between(random, 1.1, 1.5), length = between(random, 1.1, 1.6);
   double ridge = between(random, 1.5, 2.1), eaves = between(random, 0.1, 0.5);
   uint32_t cloth = materials.cloth[random.below(3)];
@@ -75,12 +75,12 @@ void build_tent(MeshBuilder& mesh, const ArenaMaterials& materials, Random& rand
       corners[i] = {x, (out ? eaves : ridge) + (i & 2 ? 0.06 : 0), i & 4 ? length : -length};
     }
     unsigned inner = right ? MeshBuilder::west : MeshBuilder::east;
-    place.block(corners, cloth, MeshBuilder::all & ~inner);
+    turned.block(corners, cloth, MeshBuilder::all & ~inner);
   }
   double back = 0.03 - length;
-  place.quad({-half, 0, back}, {half, 0, back}, {half, eaves, back}, {-half, eaves, back}, cloth);
-  place.triangle({-half, eaves, back}, {half, eaves, back}, {0, ridge, back}, cloth);
-  glm::dvec3 front = place.point(0, 0, length - 0.1), rear = place.point(0, 0, 0.15 - length);
+  turned.quad({-half, 0, back}, {half, 0, back}, {half, eaves, back}, {-half, eaves, back}, cloth);
+  turned.triangle({-half, eaves, back}, {half, eaves, back}, {0, ridge, back}, cloth);
+  glm::dvec3 front = turned.point(0, 0, length - 0.1), rear = turned.point(0, 0, 0.15 - length);
   for (const glm::dvec3& pole : {front, rear}) mesh.prism(pole, ridge - 0.01, 0.05, 0.05, 4, materials.metal);
 }
 
@@ -120,13 +120,13 @@ bool in_the_way(const std::vector<glm::dvec3>& keep_clear, const glm::dvec3& foo
 
 void build_crate(MeshBuilder& mesh, const ArenaMaterials& materials, Random& random, const glm::dvec3& foot,
                  const glm::dvec2& ahead, double size) {
-  TurnedMesh place(mesh, foot, ahead);
+  TurnedMesh turned(mesh, foot, ahead);
   double half = 0.5 * size, inner = half - 0.05, edge = 0.12 * size;
   uint32_t material = materials.wood[random.below(2)];
-  place.box({-half, 0, -half}, {half, edge, half}, materials.wood[0], kNoBottom);
-  place.box({-inner, edge, -inner}, {inner, size - edge, inner}, material,
-            MeshBuilder::west | MeshBuilder::east | MeshBuilder::north | MeshBuilder::south);
-  place.box({-half, size - edge, -half}, {half, size, half}, materials.wood[0]);
+  turned.box({-half, 0, -half}, {half, edge, half}, materials.wood[0], kNoBottom);
+  turned.box({-inner, edge, -inner}, {inner, size - edge, inner}, material,
+             MeshBuilder::west | MeshBuilder::east | MeshBuilder::north | MeshBuilder::south);
+  turned.box({-half, size - edge, -half}, {half, size, half}, materials.wood[0]);
 }
 
 int build_arena_objects(MeshBuilder& mesh, const ArenaMaterials& materials, Random& random,
@@ -136,30 +136,30 @@ int build_arena_objects(MeshBuilder& mesh, const ArenaMaterials& materials, Rand
                                               {kTents, 1.9, build_tent},
                                               {kTrees, 1.45, build_tree},
                                               {kCrates, 1.2, build_crates}}};
-  struct Place {
+  struct Footprint {
     glm::dvec3 foot;
     double reach;
   };
-  std::vector<Place> places;
+  std::vector<Footprint> footprints;
   for (const Kind& kind : kinds) {
     for (int built = 0; built < kind.count;) {
-      double most = kArenaHalf - kArenaWall - 0.3 - kind.reach;
-      double x = between(random, -most, most), z = between(random, -most, most);
+      double max_offset = kArenaHalf - kArenaWall - 0.3 - kind.reach;
+      double x = between(random, -max_offset, max_offset), z = between(random, -max_offset, max_offset);
       glm::dvec3 foot(x, 0, z);
       double house = kRoomHalf + kRoomWall + 0.6 + kind.reach;
       if (std::abs(x - kRoomX) < house && std::abs(z - kRoomZ) < house) continue;
-      bool crowded = std::any_of(places.begin(), places.end(), [&](const Place& other) {
+      bool crowded = std::any_of(footprints.begin(), footprints.end(), [&](const Footprint& other) {
         glm::dvec3 step = other.foot - foot;
         double apart = 0.8 * (other.reach + kind.reach);
         return glm::dot(step, step) < apart * apart;
       });
       if (crowded || in_the_way(keep_clear, foot, kind.reach)) continue;
-      places.push_back({foot, kind.reach});
+      footprints.push_back({foot, kind.reach});
       kind.build(mesh, materials, random, foot);
       ++built;
     }
   }
-  return static_cast<int>(places.size());
+  return static_cast<int>(footprints.size());
 }
 
 }  // namespace ml

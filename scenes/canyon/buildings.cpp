@@ -37,8 +37,8 @@ void build_tower(Mesh& mesh, const CanyonMaterials& materials, const glm::dvec3&
   mesh.prism(crown, 1.5, 2.6, 3.1, kSides, materials.concrete);
   for (int i = 0; i < kSides; i += 2) {
     double turns = static_cast<double>(i) / kSides;
-    glm::dvec3 place = crown + glm::dvec3(2.4 * cosine_of_turns(turns), 1.5, -2.4 * sine_of_turns(turns));
-    mesh.prism(place, 1.0, 0.55, 0.55, 4, materials.concrete);
+    glm::dvec3 position = crown + glm::dvec3(2.4 * cosine_of_turns(turns), 1.5, -2.4 * sine_of_turns(turns));
+    mesh.prism(position, 1.0, 0.55, 0.55, 4, materials.concrete);
   }
   mesh.prism(crown + glm::dvec3(0, 1.5, 0), 5.0, 0.08, 0.05, 6, materials.metal);
   // The flag.

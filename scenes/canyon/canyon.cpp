@@ -19,7 +19,7 @@ Scene make_canyon(const SceneDescription& description, uint32_t seed) {
   CanyonGround ground(seed, canyon_footprints());
   std::vector<CameraPath> paths =
       camera_paths(description, [&](double x, double z) { return ground.height(x, z); });
-  const std::vector<glm::dvec3> keep_clear = paths[0].places(400);
+  const std::vector<glm::dvec3> keep_clear = paths[0].positions(400);
 
   ground.build(mesh, materials);
   for (double side : {-1.0, 1.0}) build_fort(mesh, materials, canyon_fort(side));

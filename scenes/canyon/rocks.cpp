@@ -28,7 +28,7 @@ constexpr uint8_t kFaces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 1
                                    {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
 
 // A bumpy icosahedron, turned about the vertical, its lower part in the ground.
-void build_rock(MeshBuilder& mesh, Random& random, const glm::dvec3& place, double radius,
+void build_rock(MeshBuilder& mesh, Random& random, const glm::dvec3& position, double radius,
                 uint32_t material) {
   double turns = random.uniform(), c = cosine_of_turns(turns), s = sine_of_turns(turns);
   // In braces: from left to right with every compiler.
@@ -38,7 +38,7 @@ void build_rock(MeshBuilder& mesh, Random& random, const glm::dvec3& place, doub
     double size =
         radius * static_cast<double>(random.uniform(0.8f, 1.15f)) / std::sqrt(1 + kGolden * kGolden);
     glm::dvec3 p = kCorners[i] * stretch * size;
-    corners[i] = place + glm::dvec3(c * p.x - s * p.z, p.y + 0.25 * radius, s * p.x + c * p.z);
+    corners[i] = position + glm::dvec3(c * p.x - s * p.z, p.y + 0.25 * radius, s * p.x + c * p.z);
     corners[i].y = std::max(corners[i].y, CanyonGround::kLowest);
   }
   for (const auto& face : kFaces)
@@ -68,13 +68,13 @@ void build_rocks(MeshBuilder& mesh, const CanyonMaterials& materials, const Cany
     if (std::abs(z) > 70) continue;
     double u = random.uniform();
     double radius = 0.35 + 1.9 * u * u * u;
-    glm::dvec3 place(x, ground.height(x, z), z);
-    if (place.y > 32 || on_footprint(footprints, x, z, radius)) continue;
+    glm::dvec3 position(x, ground.height(x, z), z);
+    if (position.y > 32 || on_footprint(footprints, x, z, radius)) continue;
     bool in_the_way = std::any_of(keep_clear.begin(), keep_clear.end(), [&](const glm::dvec3& point) {
-      return glm::length(point - place) < 3 + 1.6 * radius;
+      return glm::length(point - position) < 3 + 1.6 * radius;
     });
     if (in_the_way) continue;
-    build_rock(mesh, random, place, radius, materials.rock);
+    build_rock(mesh, random, position, radius, materials.rock);
     ++built;
   }
 }

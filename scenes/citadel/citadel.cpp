@@ -31,7 +31,7 @@ Scene make_citadel(const SceneDescription& description, uint32_t seed) {
   HeightField ground = make_citadel_ground(seed);
   std::vector<CameraPath> paths =
       camera_paths(description, [&](double x, double z) { return ground.height(x, z); });
-  const std::vector<glm::dvec3> keep_clear = paths[0].places(400);
+  const std::vector<glm::dvec3> keep_clear = paths[0].positions(400);
 
   build_ground(mesh, materials, ground);
   build_ring_wall(mesh, materials);

@@ -29,7 +29,7 @@ double raw_height(uint32_t seed, double x, double z) {
 
 }  // namespace
 
-glm::dvec3 citadel_place(double turns, double radius, double y) {
+glm::dvec3 citadel_point(double turns, double radius, double y) {
   return {radius * sine_of_turns(turns), y, radius * cosine_of_turns(turns)};
 }
 

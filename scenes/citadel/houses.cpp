@@ -64,53 +64,54 @@ double between(Random& random, double low, double high) {
 void build_town_house(MeshBuilder& mesh, const CitadelMaterials& materials, const HeightField& ground,
                       Random& random, double turns, double radius, bool faces_out) {
   radius += between(random, -0.3, 0.3);
-  glm::dvec3 origin = citadel_place(turns, radius, 0), outward = citadel_place(turns, faces_out ? 1 : -1, 0);
+  glm::dvec3 origin = citadel_point(turns, radius, 0), outward = citadel_point(turns, faces_out ? 1 : -1, 0);
   origin.y = ground.height(origin.x, origin.z);
-  TurnedMesh place(mesh, origin, {outward.x, outward.z});
+  TurnedMesh turned(mesh, origin, {outward.x, outward.z});
   House h;
   h.width = between(random, 4.5, 5.1);
   h.depth = between(random, 5.9, 6.7);
   h.eaves = between(random, 3.8, 6.4);
   h.ridge = h.eaves + between(random, 2.0, 3.0);
-  h.cellar = cellar_of(ground, place, origin, h.width, h.depth);
+  h.cellar = cellar_of(ground, turned, origin, h.width, h.depth);
   uint32_t walls = materials.plaster[random.below(3)], roof = materials.tiles[random.below(2)];
-  build_house(place, h, walls, roof);
+  build_house(turned, h, walls, roof);
   double chimney = between(random, -0.3, 0.3) * h.depth;
-  build_chimney(place, h, chimney, materials.stone);
+  build_chimney(turned, h, chimney, materials.stone);
   // The door stands on the street, higher or lower than the house's middle.
   double side = random.below(2) ? 0.9 : -0.9, front = 0.5 * h.depth;
-  glm::dvec3 step = place.point(side, 0, front + 0.1);
+  glm::dvec3 step = turned.point(side, 0, front + 0.1);
   double sill = ground.height(step.x, step.z) - origin.y;
   double top = std::min(sill + 2.2, h.eaves - 0.3);
-  place.box({side - 0.55, sill - 0.4, front}, {side + 0.55, top, front + 0.12}, materials.wood,
-            kNoBottom & ~static_cast<unsigned>(MeshBuilder::north));
+  turned.box({side - 0.55, sill - 0.4, front}, {side + 0.55, top, front + 0.12}, materials.wood,
+             kNoBottom & ~static_cast<unsigned>(MeshBuilder::north));
 }
 
-// Is a point of `points` within `margin` m of `place`, seen from above, and no more than `height` m above it?
-bool near_any(const std::vector<glm::dvec3>& points, const glm::dvec3& place, double margin, double height) {
+// Is a point of `points` within `margin` m of `position`, seen from above, and at most `height` m above it?
+bool near_any(const std::vector<glm::dvec3>& points, const glm::dvec3& position, double margin,
+              double height) {
   return std::any_of(points.begin(), points.end(), [&](const glm::dvec3& p) {
-    double dx = p.x - place.x, dz = p.z - place.z;
-    return dx * dx + dz * dz < margin * margin && p.y < place.y + height;
+    double dx = p.x - position.x, dz = p.z - position.z;
+    return dx * dx + dz * dz < margin * margin && p.y < position.y + height;
   });
 }
 
-bool near_any(const std::vector<glm::dvec2>& points, const glm::dvec3& place, double margin) {
+bool near_any(const std::vector<glm::dvec2>& points, const glm::dvec3& position, double margin) {
   return std::any_of(points.begin(), points.end(), [&](const glm::dvec2& p) {
-    double dx = p.x - place.x, dz = p.y - place.z;
+    double dx = p.x - position.x, dz = p.y - position.z;
     return dx * dx + dz * dz < margin * margin;
   });
 }
 
-// A place outside the wall, off the road: uniform over the ring between the radii.
-glm::dvec3 place_outside(const HeightField& ground, Random& random, double nearest, double farthest) {
+// A point outside the wall, off the road: uniform over the ring between the radii.
+glm::dvec3 point_outside(const HeightField& ground, Random& random, double nearest, double farthest) {
   for (;;) {
     double turns = between(random, 0, 1), share = between(random, 0, 1);
     double radius = std::sqrt(nearest * nearest + share * (farthest * farthest - nearest * nearest));
-    glm::dvec3 place = citadel_place(turns, radius, 0);
-    if (place.z > 0 && std::abs(place.x) < 9) continue;
-    place.y = ground.height(place.x, place.z);
+    glm::dvec3 position = citadel_point(turns, radius, 0);
+    if (position.z > 0 && std::abs(position.x) < 9) continue;
+    position.y = ground.height(position.x, position.z);
     // Not in the wettest hollows, where foundations would lie below the level.
-    if (place.y > -2.5) return place;
+    if (position.y > -2.5) return position;
   }
 }
 
@@ -159,22 +160,22 @@ std::vector<glm::dvec2> build_farms(MeshBuilder& mesh, const CitadelMaterials& m
   constexpr size_t kFarms = 70;
   std::vector<glm::dvec2> farms;
   while (farms.size() < kFarms) {
-    glm::dvec3 origin = place_outside(ground, random, 134, 330);
+    glm::dvec3 origin = point_outside(ground, random, 134, 330);
     double turns = between(random, 0, 1);
     if (near_any(farms, origin, 24) || near_any(keep_clear, origin, 16, 12)) continue;
     farms.emplace_back(origin.x, origin.z);
-    glm::dvec3 ahead = citadel_place(turns, 1, 0);
+    glm::dvec3 ahead = citadel_point(turns, 1, 0);
     for (bool barn : {false, true}) {
-      glm::dvec3 place = TurnedMesh(mesh, origin, {ahead.x, ahead.z}).point(barn ? 10.5 : 0, 0, 1.5);
-      place.y = ground.height(place.x, place.z);
+      glm::dvec3 position = TurnedMesh(mesh, origin, {ahead.x, ahead.z}).point(barn ? 10.5 : 0, 0, 1.5);
+      position.y = ground.height(position.x, position.z);
       // The barn stands across the house.
-      TurnedMesh turned(mesh, place, barn ? glm::dvec2(ahead.z, -ahead.x) : glm::dvec2(ahead.x, ahead.z));
+      TurnedMesh turned(mesh, position, barn ? glm::dvec2(ahead.z, -ahead.x) : glm::dvec2(ahead.x, ahead.z));
       House h;
       h.width = between(random, 6, 7.5);
       h.depth = between(random, 9, 12);
       h.eaves = between(random, 2.8, 4);
       h.ridge = h.eaves + between(random, 2.6, 3.6);
-      h.cellar = cellar_of(ground, turned, place, h.width, h.depth);
+      h.cellar = cellar_of(ground, turned, position, h.width, h.depth);
       uint32_t walls = materials.plaster[random.below(3)], roof = materials.tiles[random.below(2)];
       build_house(turned, h, barn ? materials.wood : walls, roof);
       if (!barn) build_chimney(turned, h, 0.25 * h.depth, materials.stone);
@@ -193,9 +194,9 @@ void build_conifers(MeshBuilder& mesh, const CitadelMaterials& materials, const 
   std::vector<glm::dvec2> trees;
   std::vector<glm::dvec3> woods;
   // Half of them stand alone, half in some twenty woods.
-  while (woods.size() < 20) woods.push_back(place_outside(ground, random, 150, 310));
+  while (woods.size() < 20) woods.push_back(point_outside(ground, random, 150, 310));
   while (trees.size() < kConifers) {
-    glm::dvec3 foot = place_outside(ground, random, 122, 330);
+    glm::dvec3 foot = point_outside(ground, random, 122, 330);
     double height = between(random, 7, 13);
     if (trees.size() % 2 == 0) {
       const glm::dvec3& wood = woods[random.below(20)];

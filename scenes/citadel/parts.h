@@ -18,8 +18,8 @@ struct CitadelMaterials {
   uint32_t plaster[3], tiles[2];
 };
 
-// The place `radius` m from the middle, `turns` round it: 0 is south, 0.25 east (+x).
-glm::dvec3 citadel_place(double turns, double radius, double y);
+// The point `radius` m from the middle, `turns` round it: 0 is south, 0.25 east (+x).
+glm::dvec3 citadel_point(double turns, double radius, double y);
 
 // 760 x 760 m of 5 m cells: level on the hill's top (38 m) and under the ring wall (13 m), fields that reach
 // down to -4 m exactly.

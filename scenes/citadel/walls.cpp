@@ -24,7 +24,7 @@ void build_tower(MeshBuilder& mesh, const CitadelMaterials& materials, int numbe
   constexpr int kSides = 10;
   constexpr double kTop = 25.5;
   // Outside the walk, so that the walk is free from one end to the other.
-  glm::dvec3 foot = citadel_place((number + 0.5) / kTowers, kWallRadius + 4.6, kWallFoot - 2);
+  glm::dvec3 foot = citadel_point((number + 0.5) / kTowers, kWallRadius + 4.6, kWallFoot - 2);
   mesh.prism(foot, kTop - foot.y, 4.4, 4.0, kSides, materials.stone);
   glm::dvec3 crown(foot.x, kTop, foot.z);
   mesh.prism(crown, 1.2, 4.0, 4.5, kSides, materials.trim);
@@ -35,8 +35,8 @@ void build_tower(MeshBuilder& mesh, const CitadelMaterials& materials, int numbe
   }
   for (int i = 0; i < kSides; i += 2) {
     double turns = static_cast<double>(i) / kSides;
-    glm::dvec3 place = crown + glm::dvec3(3.7 * cosine_of_turns(turns), 0, -3.7 * sine_of_turns(turns));
-    mesh.prism(place, 1.1, 0.7, 0.7, 4, materials.stone);
+    glm::dvec3 position = crown + glm::dvec3(3.7 * cosine_of_turns(turns), 0, -3.7 * sine_of_turns(turns));
+    mesh.prism(position, 1.1, 0.7, 0.7, 4, materials.stone);
   }
 }
 
@@ -66,8 +66,8 @@ void build_ring_wall(MeshBuilder& mesh, const CitadelMaterials& materials) {
   double middle = kWallRadius * cosine_of_turns(half), length = 2 * kWallRadius * sine_of_turns(half);
   for (int i = 0; i < kTowers; ++i) {
     double turns = static_cast<double>(i) / kTowers;
-    glm::dvec3 outward = citadel_place(turns, 1, 0);
-    TurnedMesh wall(mesh, citadel_place(turns, middle, 0), {outward.x, outward.z});
+    glm::dvec3 outward = citadel_point(turns, 1, 0);
+    TurnedMesh wall(mesh, citadel_point(turns, middle, 0), {outward.x, outward.z});
     double end = 0.5 * length + 0.2;
     if (i == 0) {
       wall.box({-end, kWallFoot - 2, -2}, {-3.2, kWallWalk, 2}, materials.stone, kNoBottom);
@@ -84,7 +84,7 @@ void build_ring_wall(MeshBuilder& mesh, const CitadelMaterials& materials) {
 void build_keep(MeshBuilder& mesh, const CitadelMaterials& materials) {
   constexpr double kFoot = 36;
   for (int side = 0; side < 4; ++side) {
-    glm::dvec3 outward = citadel_place(0.25 * side, 1, 0);
+    glm::dvec3 outward = citadel_point(0.25 * side, 1, 0);
     TurnedMesh face(mesh, glm::dvec3(0), {outward.x, outward.z});
     battlements(face, -kKeepHalf + 3, kKeepHalf - 3, kKeepRoof, kKeepHalf - 0.6, kKeepHalf, materials.trim);
     for (double x : {-6.0, 6.0}) {
@@ -105,8 +105,8 @@ void build_keep(MeshBuilder& mesh, const CitadelMaterials& materials) {
   mesh.box({-kKeepHalf, kFoot, -kKeepHalf}, {kKeepHalf, kKeepRoof, kKeepHalf}, materials.stone, kNoBottom);
 
   // The spire: a shaft with bands, a gallery, a long cone.
-  glm::dvec3 place(0, kKeepRoof, 0);
-  mesh.prism(place, 24, 4.2, 3.6, 8, materials.stone);
+  glm::dvec3 position(0, kKeepRoof, 0);
+  mesh.prism(position, 24, 4.2, 3.6, 8, materials.stone);
   for (double y : {53.0, 61.0}) {
     mesh.prism({0, y, 0}, 0.35, 3.7, 4.3, 8, materials.trim);
   }

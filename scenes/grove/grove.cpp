@@ -50,7 +50,7 @@ Scene make_grove(const SceneDescription& description, uint32_t seed) {
   GroveWay way;
   std::vector<CameraPath> paths =
       camera_paths(description, [&](double x, double z) { return ground.height(x, z); });
-  const std::vector<glm::dvec3> keep_clear = paths[0].places(400);
+  const std::vector<glm::dvec3> keep_clear = paths[0].positions(400);
 
   build_ground(mesh, materials, ground, way);
   build_fences(mesh, materials, ground, way);

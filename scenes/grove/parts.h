@@ -25,13 +25,13 @@ class GroveWay {
   GroveWay();
   double length() const { return steps_.back().length; }  // m
 
-  struct Place {
+  struct WayPoint {
     glm::dvec2 point;  // x, z in m
     glm::dvec2 ahead;  // unit length
     // `across` m to the right.
     glm::dvec2 beside(double across) const { return point + across * glm::dvec2(-ahead.y, ahead.x); }
   };
-  Place at(double length) const;
+  WayPoint at(double length) const;
   // m from the nearest point of the middle line, at most 0.4 m too many.
   double distance(const glm::dvec2& point) const;
 

@@ -66,23 +66,23 @@ void build_trees(MeshBuilder& mesh, const GroveMaterials& materials, const Heigh
   std::vector<glm::dvec2> trees;
   while (trees.size() < kTrees) {
     double x = between(random, -kHalf, kHalf), z = between(random, -kHalf, kHalf);
-    glm::dvec2 place(x, z);
+    glm::dvec2 position(x, z);
     // Every eighth one within 25 m of the way.
     if (trees.size() % 8 == 0) {
       double across = between(random, -25, 25);
-      place = way.at(between(random, 0, way.length())).beside(across);
+      position = way.at(between(random, 0, way.length())).beside(across);
     }
-    if (way.distance(place) < 4.2) continue;
+    if (way.distance(position) < 4.2) continue;
     bool crowded = std::any_of(trees.begin(), trees.end(), [&](const glm::dvec2& other) {
-      return glm::dot(other - place, other - place) < 2.6 * 2.6;
+      return glm::dot(other - position, other - position) < 2.6 * 2.6;
     });
     bool in_the_way = std::any_of(keep_clear.begin(), keep_clear.end(), [&](const glm::dvec3& point) {
-      double dx = point.x - place.x, dz = point.z - place.y;
+      double dx = point.x - position.x, dz = point.z - position.y;
       return dx * dx + dz * dz < 4.2 * 4.2;
     });
     if (crowded || in_the_way) continue;
-    trees.push_back(place);
-    build_tree(mesh, materials, random, {place.x, ground.height(place.x, place.y), place.y});
+    trees.push_back(position);
+    build_tree(mesh, materials, random, {position.x, ground.height(position.x, position.y), position.y});
   }
 }
 

@@ -31,7 +31,7 @@ GroveWay::GroveWay() {
   }
 }
 
-GroveWay::Place GroveWay::at(double length) const {
+GroveWay::WayPoint GroveWay::at(double length) const {
   auto after = std::upper_bound(steps_.begin() + 1, steps_.end() - 1, length,
                                 [](double l, const Step& step) { return l < step.length; });
   const Step &a = *(after - 1), &b = *after;
@@ -52,16 +52,16 @@ void build_fences(MeshBuilder& mesh, const GroveMaterials& materials, const Heig
   constexpr double kHalfWidth = 0.04, kHigh = 1.1;
   for (double side : {-1.0, 1.0}) {
     auto foot = [&](double length) {
-      glm::dvec2 place = way.at(length).beside(side * kFenceOffset);
-      return glm::dvec3(place.x, ground.height(place.x, place.y), place.y);
+      glm::dvec2 position = way.at(length).beside(side * kFenceOffset);
+      return glm::dvec3(position.x, ground.height(position.x, position.y), position.y);
     };
     double pitch = way.length() / kSlats;
     for (int i = 0; i < kSlats; ++i) {
       double length = (i + 0.5) * pitch;
-      glm::dvec3 place = foot(length);
+      glm::dvec3 position = foot(length);
       glm::dvec2 ahead = way.at(length).ahead;
       // Local z runs along the way, local x to its left; the slats stand on the way's side of the rails.
-      TurnedMesh slat(mesh, place, ahead);
+      TurnedMesh slat(mesh, position, ahead);
       double x = side * 0.04;
       slat.box({x - 0.012, -0.1, -kHalfWidth}, {x + 0.012, kHigh, kHalfWidth}, materials.picket, kNoBottom);
     }
@@ -88,13 +88,13 @@ void build_lamps(MeshBuilder& mesh, const GroveMaterials& materials, const Heigh
                  const GroveWay& way) {
   double side = 1;
   for (double length = 0.5 * kLampEvery; length < way.length(); length += kLampEvery, side = -side) {
-    GroveWay::Place place = way.at(length);
-    glm::dvec2 foot = place.beside(side * (kFenceOffset + 0.45));
+    GroveWay::WayPoint lamp = way.at(length);
+    glm::dvec2 foot = lamp.beside(side * (kFenceOffset + 0.45));
     glm::dvec3 base(foot.x, ground.height(foot.x, foot.y) - 0.2, foot.y);
     mesh.prism(base, 0.55, 0.16, 0.1, 6, materials.iron);
     mesh.prism(base + glm::dvec3(0, 0.55, 0), 3.05, 0.055, 0.045, 6, materials.iron);
     // An arm over the fence, and the lantern at its end.
-    glm::dvec2 over = place.point - foot;
+    glm::dvec2 over = lamp.point - foot;
     TurnedMesh arm(mesh, base + glm::dvec3(0, 3.4, 0), over);
     arm.box({-0.03, 0, -0.1}, {0.03, 0.06, 0.95}, materials.iron);
     glm::dvec3 lantern = arm.point(0, -0.42, 0.85);

@@ -119,10 +119,10 @@ int build_museum_exhibits(MeshBuilder& mesh, const MuseumMaterials& materials, R
   for (int k = 0; k < kMuseumRoomsZ; ++k) {
     for (int i = 0; i < kMuseumRoomsX; ++i) {
       uint32_t empty = random.below(4);
-      for (uint32_t place = 0; place < 4; ++place) {
-        if (place == empty) continue;
-        double x = (place & 1 ? kAside : -kAside) + between(random, -0.3, 0.3);
-        double z = (place & 2 ? kAside : -kAside) + between(random, -0.3, 0.3);
+      for (uint32_t corner = 0; corner < 4; ++corner) {
+        if (corner == empty) continue;
+        double x = (corner & 1 ? kAside : -kAside) + between(random, -0.3, 0.3);
+        double z = (corner & 2 ? kAside : -kAside) + between(random, -0.3, 0.3);
         glm::dvec3 foot = museum_room(i, k) + glm::dvec3(x, 0, z);
         mesh.box(foot - glm::dvec3(kHalf, 0, kHalf), foot + glm::dvec3(kHalf, 0.12, kHalf), materials.stone,
                  kNoBottom);

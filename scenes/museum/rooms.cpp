@@ -101,11 +101,11 @@ void build_museum_rooms(MeshBuilder& mesh, const MuseumMaterials& materials, Ran
       for (Direction out : {Direction{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
         int ni = i + out.x, nk = k + out.z;
         bool door = ni >= 0 && ni < kMuseumRoomsX && nk >= 0 && nk < kMuseumRoomsZ;
-        glm::dvec3 place = middle + kHalfRoom * glm::dvec3(out.x, 0, out.z);
+        glm::dvec3 position = middle + kHalfRoom * glm::dvec3(out.x, 0, out.z);
         // Each wall once, by the room to its west or north, or by its only room.
         if (!door || out.x + out.z > 0)
-          build_wall(TurnedMesh(mesh, place, {out.x, out.z}), materials.paint[random.below(4)], door);
-        build_side(TurnedMesh(mesh, place, {-out.x, -out.z}), materials, random, door);
+          build_wall(TurnedMesh(mesh, position, {out.x, out.z}), materials.paint[random.below(4)], door);
+        build_side(TurnedMesh(mesh, position, {-out.x, -out.z}), materials, random, door);
       }
     }
   }

@@ -31,8 +31,8 @@ ML_SIZE(MaterialData, 56);
 // Set where the material has a normal map.
 #define ML_DETAIL_NORMAL_BIT 0x2000000u
 
-// Behind it in levels with moving meshes: takes a vertex p to linear * (p - pivot) + moved_pivot, in metres
-// relative to the scene's origin.
+// Follows MaterialData in the push constants of levels with moving meshes: takes a vertex p to
+// linear * (p - pivot) + moved_pivot, in metres relative to the scene's origin.
 struct MotionData {
   mat3 linear;
   vec3 pivot;

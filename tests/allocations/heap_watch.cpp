@@ -62,7 +62,7 @@ std::string describe(void* caller) {
   int status = -1;
   char* name = info.dli_sname ? abi::__cxa_demangle(info.dli_sname, nullptr, nullptr, &status) : nullptr;
   const auto offset = static_cast<char*>(caller) - static_cast<char*>(info.dli_fbase);
-  std::string text = fmt::format("{} + {:#x}, in or behind {}", info.dli_fname, offset,
+  std::string text = fmt::format("{} + {:#x}, in or after {}", info.dli_fname, offset,
                                  status == 0 ? name : "a function without a name");
   std::free(name);
   return text;

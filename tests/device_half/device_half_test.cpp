@@ -32,7 +32,7 @@ class DeviceHalf : public DeviceTest {
     input_.step = step;
     frame_.load(input_);
     Spans spans;
-    algorithm_.prepare(input_, spans, frame_.occupied_blocks().places());
+    algorithm_.prepare(input_, spans, frame_.occupied_blocks().positions());
     algorithm_.count(frame_, input_);
     algorithm_.shade(frame_, input_, gpu::Timing::none);
   }
@@ -124,7 +124,7 @@ TEST_F(DeviceHalf, AnotherResolutionBeginsAnew) {
   input.view = view_data(camera_at({0, 3, 14}, {0, 1, -10}, 17, 9), 17, 9, lights);
   other.load(input);
   Spans spans;
-  algorithm_.prepare(input, spans, other.occupied_blocks().places());
+  algorithm_.prepare(input, spans, other.occupied_blocks().positions());
   algorithm_.count(other, input);
   const std::vector<float> sum = other.read_floats(*algorithm_.own_image("Sum"));
   ASSERT_EQ(sum.size(), 17u * 9 * 4);

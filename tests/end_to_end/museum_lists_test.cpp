@@ -71,11 +71,11 @@ double least_lights_a_tile(const json& result, const std::filesystem::path& out)
     const Picture counts = read_exr(out / file);
     for (uint32_t top = 0; top < counts.height; top += ML_PRUNED_TILE)
       for (uint32_t left = 0; left < counts.width; left += ML_PRUNED_TILE, ++tiles) {
-        float most = 0;
+        float max_count = 0;
         for (uint32_t y = top; y < std::min(top + ML_PRUNED_TILE, counts.height); ++y)
           for (uint32_t x = left; x < std::min(left + ML_PRUNED_TILE, counts.width); ++x)
-            most = std::max(most, counts.data[counts.pixel(x, y)]);
-        sum += static_cast<double>(most);
+            max_count = std::max(max_count, counts.data[counts.pixel(x, y)]);
+        sum += static_cast<double>(max_count);
       }
   }
   EXPECT_EQ(tiles, size_t{16} * 80 * 45);

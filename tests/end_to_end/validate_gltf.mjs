@@ -8,9 +8,9 @@ import {basename, dirname, resolve, sep} from 'node:path';
 const severities = ['error', 'warning', 'information', 'hint'];
 
 function findValidator() {
-  for (const place of [import.meta.url, resolve('package.json')]) {
+  for (const base of [import.meta.url, resolve('package.json')]) {
     try {
-      return createRequire(place)('gltf-validator');
+      return createRequire(base)('gltf-validator');
     } catch (error) {
       if (error.code !== 'MODULE_NOT_FOUND') throw error;
     }

@@ -47,7 +47,7 @@ TEST_F(Contributing, IsTheOraclesCountAtEveryPixel) {
 
 TEST_F(Contributing, IsThePlanesKnownMean) {
   // Lights of radius r at height h over a plane: N pi (r^2 - h^2) / 10^4 lights a pixel, 3.77 here. From
-  // straight above the picture shows nothing of the edges. The standard error of the mean over places is
+  // straight above the picture shows nothing of the edges. The standard error of the mean over positions is
   // below 3 % for this seed's 1000 lights.
   constexpr uint32_t width = 160, height = 90;
   const Scene plane = make_scene("plane");

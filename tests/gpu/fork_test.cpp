@@ -32,7 +32,7 @@ class Fork : public DeviceTest {
   gpu::Commands commands_{device()};
 };
 
-TEST_F(Fork, BothSidesComeBehindWhatWasBeforeAndBeforeWhatIsAfter) {
+TEST_F(Fork, BothSidesComeAfterWhatWasBeforeAndBeforeWhatIsAfter) {
   for (uint32_t round = 0; round < 20; ++round) {
     // Depth 1.0 is slice 1, 0.0 slice 0: what the program finds says what the fill before it left.
     const bool near = round % 2;
@@ -117,7 +117,7 @@ TEST_F(Fork, WhatMayNotBeIsSaid) {
   commands_.submit();
 }
 
-TEST_F(Fork, UnorderedPassesAreAllDoneBehindTheScope) {
+TEST_F(Fork, UnorderedPassesAreAllDoneAfterTheScope) {
   commands_.begin(gpu::Timing::none);
   commands_.fill(in_, 0x3f800000);
   commands_.fill(out_, 0);

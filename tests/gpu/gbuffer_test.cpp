@@ -1,4 +1,4 @@
-// What the g-buffer holds of surfaces whose place and material are known.
+// What the g-buffer holds of surfaces whose position and material are known.
 #include <gtest/gtest.h>
 
 #include <cmath>

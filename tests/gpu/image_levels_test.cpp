@@ -29,10 +29,10 @@ Picture coarser(const Picture& fine) {
   coarse.pixels.assign(size_t{coarse.width} * coarse.height, -1);
   for (uint32_t y = 0; y < fine.height; ++y)
     for (uint32_t x = 0; x < fine.width; ++x) {
-      float& most =
+      float& max_value =
           coarse
               .pixels[std::min(y / 2, coarse.height - 1) * coarse.width + std::min(x / 2, coarse.width - 1)];
-      most = std::max(most, fine.pixels[y * fine.width + x]);
+      max_value = std::max(max_value, fine.pixels[y * fine.width + x]);
     }
   return coarse;
 }

@@ -10,8 +10,8 @@ void main() {
   if (any(greaterThanEqual(at, size))) return;
   ivec2 fine_size = textureSize(finer, 0);
   ivec2 end = ivec2(at.x + 1 == size.x ? fine_size.x : 2 * at.x + 2, at.y + 1 == size.y ? fine_size.y : 2 * at.y + 2);
-  float most = texelFetch(finer, 2 * at, 0).r;
+  float max_value = texelFetch(finer, 2 * at, 0).r;
   for (int y = 2 * at.y; y < end.y; ++y)
-    for (int x = 2 * at.x; x < end.x; ++x) most = max(most, texelFetch(finer, ivec2(x, y), 0).r);
-  imageStore(coarser, at, vec4(most));
+    for (int x = 2 * at.x; x < end.x; ++x) max_value = max(max_value, texelFetch(finer, ivec2(x, y), 0).r);
+  imageStore(coarser, at, vec4(max_value));
 }

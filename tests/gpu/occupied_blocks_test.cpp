@@ -13,7 +13,7 @@
 namespace ml::test {
 namespace {
 
-class SeenBlocksTest : public DeviceTest {
+class OccupiedBlocksTest : public DeviceTest {
  protected:
   static void load(DeviceFrame& frame, const Camera& camera) {
     FrameInput input;
@@ -22,13 +22,13 @@ class SeenBlocksTest : public DeviceTest {
   }
   static std::set<std::pair<uint32_t, uint32_t>> blocks_of(const DeviceFrame& frame) {
     std::set<std::pair<uint32_t, uint32_t>> blocks;
-    for (glm::uvec2 place : frame.occupied_blocks().places())
-      EXPECT_TRUE(blocks.emplace(place.x, place.y).second) << place.x << ", " << place.y << " twice";
+    for (glm::uvec2 block : frame.occupied_blocks().positions())
+      EXPECT_TRUE(blocks.emplace(block.x, block.y).second) << block.x << ", " << block.y << " twice";
     return blocks;
   }
 };
 
-TEST_F(SeenBlocksTest, AreThoseWithAPixelThatIsLit) {
+TEST_F(OccupiedBlocksTest, AreThoseWithAPixelThatIsLit) {
   const Scene plane = make_scene("plane");
   for (const auto& [width, height] : {std::pair{97u, 61u}, {8u, 8u}, {1u, 1u}, {640u, 3u}, {5u, 300u}}) {
     SCOPED_TRACE(testing::Message() << width << "x" << height);
@@ -47,7 +47,7 @@ TEST_F(SeenBlocksTest, AreThoseWithAPixelThatIsLit) {
   EXPECT_EQ(device().validation_messages(), std::vector<std::string>{});
 }
 
-TEST_F(SeenBlocksTest, OthersAreBlackWhateverWasThere) {
+TEST_F(OccupiedBlocksTest, OthersAreBlackWhateverWasThere) {
   constexpr uint32_t width = 64, height = 64;
   DeviceFrame frame(device(), make_scene("plane"), {}, width, height);
   const auto expect_black = [&] {
@@ -60,7 +60,7 @@ TEST_F(SeenBlocksTest, OthersAreBlackWhateverWasThere) {
   frame.commands().write_image(words, frame.targets().result);
   frame.commands().submit();
   load(frame, camera_at({0, 10, 0}, {0, 60, -1}, width, height));
-  EXPECT_TRUE(frame.occupied_blocks().places().empty());
+  EXPECT_TRUE(frame.occupied_blocks().positions().empty());
   expect_black();
   // What is read of the g-buffer goes through the same picture.
   load(frame, camera_at({0, 10, 0}, {0, 0, -1}, width, height));

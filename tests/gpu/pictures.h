@@ -25,7 +25,7 @@ gpu::Buffer uploaded(std::span<const T> values, const char* name) {
   return buffer;
 }
 
-// All levels, one behind the other.
+// All levels, one after the other.
 template <typename T>
 void write(gpu::Commands& commands, const gpu::Image& image, const std::vector<T>& pixels) {
   const gpu::Buffer staging = uploaded(std::span(pixels), "pixels");

@@ -84,9 +84,9 @@ TEST_F(Resources, UploadBuffersGrowByDoublingAndNeverShrink) {
   EXPECT_LE(growths, 14u);
   EXPECT_LE(buffer.capacity(), 2 * 100'000u + 64);
   // Fewer bytes are the same ones.
-  const std::byte* place = buffer.map(5000).data();
+  const std::byte* address = buffer.map(5000).data();
   std::span<std::byte> fewer = buffer.map(3);
-  EXPECT_EQ(fewer.data(), place);
+  EXPECT_EQ(fewer.data(), address);
   EXPECT_EQ(fewer[2], std::byte{7});
   EXPECT_EQ(buffer.used(), 3u);
   EXPECT_EQ(buffer.capacity(), before);

@@ -12,15 +12,15 @@ struct Answer {
   uint size, subgroup, lane;  // gl_SubgroupSize, number of the subgroup in its workgroup, lane
   uint smallest;              // of the values
   uint shuffled;              // value of lane (7 * lane + 3) modulo size
-  uint turns;                 // of the loop over distinct values
-  uint own_turn;              // in which the own value was the smallest left
+  uint iterations;            // of the loop over distinct values
+  uint own_iteration;         // in which the own value was the smallest left
   uint all_even, any_even;
 };
 layout(scalar, binding = 0) readonly buffer Values { uint values[]; };
 layout(scalar, binding = 1) writeonly buffer Answers { Answer answers[]; };
 
 void main() {
-  const uint place = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex, value = values[place];
+  const uint index = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex, value = values[index];
   Answer answer;
   answer.size = gl_SubgroupSize;
   answer.subgroup = gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID;
@@ -31,16 +31,16 @@ void main() {
   answer.any_even = subgroupAny(value % 2u == 0u) ? 1u : 0u;
   const uint none = 0xffffffffu;
   uint left = value;
-  answer.turns = 0u;
-  answer.own_turn = none;
+  answer.iterations = 0u;
+  answer.own_iteration = none;
   while (true) {
     const uint smallest = subgroupMin(left);
     if (smallest == none) break;
     if (left == smallest) {
-      answer.own_turn = answer.turns;
+      answer.own_iteration = answer.iterations;
       left = none;
     }
-    answer.turns++;
+    answer.iterations++;
   }
-  answers[place] = answer;
+  answers[index] = answer;
 }

@@ -17,7 +17,7 @@ namespace {
 class Subgroups : public DeviceTest {};
 
 struct Answer {
-  uint32_t size, subgroup, lane, smallest, shuffled, turns, own_turn, all_even, any_even;
+  uint32_t size, subgroup, lane, smallest, shuffled, iterations, own_iteration, all_even, any_even;
 };
 
 std::vector<Answer> answers_of(const std::vector<uint32_t>& values) {
@@ -70,8 +70,8 @@ TEST_F(Subgroups, AnswerForAllTheirLanes) {
     }
     ASSERT_EQ(answer.all_even, all_even);
     ASSERT_EQ(answer.any_even, any_even);
-    ASSERT_EQ(answer.turns, distinct.size());
-    ASSERT_EQ(answer.own_turn,
+    ASSERT_EQ(answer.iterations, distinct.size());
+    ASSERT_EQ(answer.own_iteration,
               static_cast<uint32_t>(std::distance(distinct.begin(), distinct.find(values[i]))));
   }
 }

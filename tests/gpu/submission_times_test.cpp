@@ -93,7 +93,7 @@ TEST(SubmissionTimes, CountersOfFewBitsWrapAnywhere) {
 }
 
 TEST(SubmissionTimes, AClockThatIsAnotherOneIsSeen) {
-  // The second queue's stamps stand before the fork, or behind the join.
+  // The second queue's stamps stand before the fork, or after the join.
   EXPECT_NEAR(frame(10'000, 7'000).times(19'000).disorder, 2, 1e-9);
   EXPECT_NEAR(frame(0, 2'500).times(9'000).disorder, 2.5, 1e-9);
   const std::string why = timing_contradiction(frame(10'000, 7'000).times(19'000), gpu::Timing::stages);

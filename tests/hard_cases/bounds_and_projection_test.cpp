@@ -55,7 +55,7 @@ TEST_F(HardCases, Case03_LightCentreBehindTheCamera) {
 }
 
 TEST_F(HardCases, Case04_LightInsideOneFroxel) {
-  // A light of 2 cm just above the floor and far smaller than any froxel, at many places.
+  // A light of 2 cm just above the floor and far smaller than any froxel, at many positions.
   Exactness check(yard(), width, height);
   std::vector<Light> lights;
   for (int i = 0; i < 400; ++i) lights.push_back(omni({-10 + 0.05 * i, 0.01, 9 - 0.03 * i}, 0.05f));
@@ -77,9 +77,9 @@ TEST_F(HardCases, Case05_LightsAtTheBordersOfThePicture) {
         const float along = static_cast<float>(step) / 10;
         for (glm::vec2 at :
              {glm::vec2(side * p.right, along * p.top), glm::vec2(along * p.right, side * p.top)}) {
-          glm::vec3 place =
+          glm::vec3 position =
               camera.position + (camera.forward + camera.right * at.x + camera.up * at.y) * depth;
-          for (float radius : {0.02f, 0.1f}) lights.push_back(omni(place, radius * depth));
+          for (float radius : {0.02f, 0.1f}) lights.push_back(omni(position, radius * depth));
         }
       }
   std::vector<GridSettings> settings = usual_settings();

@@ -110,7 +110,7 @@ TEST_F(ComputeLists, FollowLightsAndCameraFromFrameToFrame) {
   }
 }
 
-TEST_F(ComputeLists, SpansOfBothSidesAreThereAndInTheirPlaces) {
+TEST_F(ComputeLists, SpansOfBothSidesAreThereAndInOrder) {
   if (device().limits().second_timestamp_valid_bits == 0)
     GTEST_SKIP() << "the second queue has no timestamps";
   for (bool compute : {false, true}) {
@@ -118,7 +118,7 @@ TEST_F(ComputeLists, SpansOfBothSidesAreThereAndInTheirPlaces) {
     check.load(camera(), lights());
     ShadedAlgorithm& algorithm = check.algorithm({});
     Spans spans;
-    algorithm.prepare(check.input(), spans, check.frame().occupied_blocks().places());
+    algorithm.prepare(check.input(), spans, check.frame().occupied_blocks().positions());
     const gpu::SubmissionTimes times = algorithm.shade(check.frame(), check.input(), gpu::Timing::stages);
     EXPECT_EQ(times.forked, compute);
     std::map<std::string, gpu::SubmissionTimes::Interval> by_name;
@@ -165,7 +165,7 @@ TEST_F(ShadowMapLoad, MapsShowTheLevelFromTheLargestLights) {
   std::vector<Light> two{omni({0, 4, 0}, 9), spot({-20, 8, 0}, 12, {0, -1, 0}, 20, 30), omni({3, 2, 1}, 1)};
   check.load(camera_at({0, 6, 20}, {0, 0, 0}, 48, 48), two);
   Spans spans;
-  check.algorithm({}).prepare(check.input(), spans, check.frame().occupied_blocks().places());
+  check.algorithm({}).prepare(check.input(), spans, check.frame().occupied_blocks().positions());
   check.algorithm({}).shade(check.frame(), check.input(), gpu::Timing::none);
   ASSERT_EQ(check.frame().shadow_maps()->maps().size(), 3u);
   auto nearest = [&](size_t map, uint32_t x, uint32_t y) {
@@ -191,16 +191,16 @@ TEST(ShadowViews, TakeTheLargestLightsThatCastShadows) {
   input.lights = storage.lights();
   const auto views = shadow_views(input, 5, 256);
   ASSERT_EQ(views.size(), 5u);
-  const std::vector<glm::vec3> places{{4, 5, 6}, {1, 2, 3}, {7, 8, 9}, {4, 5, 6}, {1, 2, 3}};
+  const std::vector<glm::vec3> positions{{4, 5, 6}, {1, 2, 3}, {7, 8, 9}, {4, 5, 6}, {1, 2, 3}};
   for (size_t i = 0; i < views.size(); ++i) {
-    EXPECT_LT(glm::distance(views[i].camera, places[i]), 1e-4f) << i;
+    EXPECT_LT(glm::distance(views[i].camera, positions[i]), 1e-4f) << i;
     EXPECT_EQ(views[i].resolution, glm::uvec2(256));
   }
   EXPECT_LT(glm::distance(views[0].forward, glm::vec3(1, 0, 0)), 1e-6f);
   EXPECT_NEAR(views[0].right_edge, std::tan(20 * degrees), 1e-5f);
   EXPECT_LT(glm::distance(views[1].forward, glm::vec3(0, -1, 0)), 1e-6f);
   EXPECT_NEAR(views[1].right_edge, 1, 1e-6f);
-  EXPECT_GT(glm::distance(views[4].forward, views[1].forward), 0.5f) << "another turn, another axis";
+  EXPECT_GT(glm::distance(views[4].forward, views[1].forward), 0.5f) << "another round, another axis";
 
   storage.fill({}, camera.position);
   input.lights = storage.lights();

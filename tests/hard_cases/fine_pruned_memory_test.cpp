@@ -9,8 +9,8 @@
 namespace ml::test {
 namespace {
 
-// fine_pruned that believes its lists to hold nothing, so that its buffer has only the room that every buffer
-// has: 1024 lights.
+// fine_pruned that believes its lists to hold nothing, so that its buffer has only the capacity that every
+// buffer has: 1024 lights.
 class Starved final : public Algorithm {
  public:
   explicit Starved(std::unique_ptr<Algorithm> inner) : inner_(std::move(inner)) {}
@@ -46,7 +46,7 @@ class Starved final : public Algorithm {
   std::unique_ptr<Algorithm> inner_;
 };
 
-TEST_F(HardCases, FinePruned_TilesWithoutRoomWalkAllVisibleLights) {
+TEST_F(HardCases, FinePruned_TilesWithoutSpaceWalkAllVisibleLights) {
   constexpr uint32_t width = 40, height = 20;
   PrunedCheck check(floor_at({0, 0, 0}, 100), width, height);
   // 300 for every tile, and 80 that are in view and reach nothing.
@@ -64,14 +64,14 @@ TEST_F(HardCases, FinePruned_TilesWithoutRoomWalkAllVisibleLights) {
     parameters.set(real.parameters, "walk", std::string(walk), "test");
     ShadedAlgorithm starved(device(), entry, parameters, check.frame().options());
     Spans spans;
-    starved.prepare(check.input(), spans, check.frame().occupied_blocks().places());
+    starved.prepare(check.input(), spans, check.frame().occupied_blocks().positions());
     ASSERT_EQ(starved.counters().in_frustum, 380u);
     starved.count(check.frame(), check.input());
     const PixelCounts counts = read_counts(check.frame());
     const PixelCounts full = check.run({}).counts;
     EXPECT_EQ(counts.hash, full.hash);
     EXPECT_EQ(counts.contributing, full.contributing);
-    // The first tiles get the room, as far as it goes.
+    // The first tiles get the space, as far as it goes.
     const PixelCounts coarse = check.run({"exact", "coarse", "pixel"}).counts;
     std::vector<uint32_t> demand(check.tiles());
     for (size_t pixel = 0; pixel < width * height; ++pixel)

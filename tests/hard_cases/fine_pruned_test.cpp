@@ -109,8 +109,8 @@ TEST_F(HardCases, FinePruned_SixtyFiveThousandLightsInOneTile) {
 }
 
 // The smaller ball around such a spot reaches 1.4 times its radius towards the camera, and would cover 2.6
-// times the tiles that the CPU makes room for.
-TEST_F(HardCases, FinePruned_SpotsThatPointAtTheCameraFitTheRoomOfTheirLists) {
+// times the tiles that the CPU makes space for.
+TEST_F(HardCases, FinePruned_SpotsThatPointAtTheCameraFitTheCapacityOfTheirLists) {
   constexpr uint32_t size = 160;
   PrunedCheck check(floor_at({0, 0, 0}, 100), size, size);
   Projection wide;

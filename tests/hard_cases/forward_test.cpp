@@ -65,7 +65,7 @@ Scene tangle() {
   sheet(-1, 0, red), sheet(-0.5f, 0, blue);                    // overlapping
   sheet(2.5f, 0, blue), sheet(3, 0, blue);                     // in one draw
   made.rectangle({9, 0.5f, 0}, {-3, 0, 0}, {0, 3, 0}, green);  // from behind
-  made.rectangle({6, 0.5f, 0}, {3, 0, 0}, {0, 3, 0}, green);   // and its front, in the same place
+  made.rectangle({6, 0.5f, 0}, {3, 0, 0}, {0, 3, 0}, green);   // and its front, at the same position
   sheet(-6, 3, grate);                                         // holes before deferred and forward
   sheet(-3, -4, blue), sheet(0, -4, 0);                        // behind
   made.box({-9, 0, 4}, {-7, 1, 6}, red).box({5, 0, 3}, {7, 2, 4}, 0);

@@ -14,7 +14,7 @@ Camera yard_camera(uint32_t w = width, uint32_t h = height) {
   return camera_at({0, 3, 14}, {0, 1, -10}, w, h);
 }
 
-// Spots of one cone at many places and in many directions, near the camera and far from it.
+// Spots of one cone at many positions and in many directions, near the camera and far from it.
 std::vector<Light> cones(float inner, float outer) {
   std::vector<Light> lights;
   const glm::vec3 axes[] = {{0, -1, 0}, {0, -1, -1e-4f},   {1, 0, 0}, {-1, -1, -1},
@@ -171,8 +171,8 @@ TEST_F(HardCases, NarrowConesRimsLightPixelsAlone) {
   Exactness check(floor_at({0, 0, 0}, 20), wide, high);
   std::vector<Light> lights;
   for (float outer : {1.0f, 2.0f, 4.0f, 8.0f, 12.0f}) {
-    const auto place = static_cast<double>(outer);
-    lights.push_back(spot({0.6 * place - 4, 5, 0.1 * place}, 30, {0.1f, -1, 0.05f}, 0.1f * outer, outer));
+    const auto angle = static_cast<double>(outer);
+    lights.push_back(spot({0.6 * angle - 4, 5, 0.1 * angle}, 30, {0.1f, -1, 0.05f}, 0.1f * outer, outer));
   }
   const Seen seen =
       check.expect_exact(camera_at({0, 6, 5}, {0, 0, 0}, wide, high), lights, {{.tile = 16}}, wide * high);

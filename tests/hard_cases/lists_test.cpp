@@ -50,7 +50,7 @@ TEST_F(HardCases, Case40_ResolutionChangesBetweenFrames) {
     frame.load(input);
     const ContributingLights truth = frame.find_contributing(input, LightLists::none);
     Spans spans;
-    algorithm.prepare(input, spans, frame.occupied_blocks().places());
+    algorithm.prepare(input, spans, frame.occupied_blocks().positions());
     algorithm.count(frame, input);
     FrameCounters counters = summarize(read_counts(frame), truth, lit_pixels(frame), algorithm.counters());
     EXPECT_EQ(counters.lost, 0u);

@@ -47,13 +47,13 @@ uint32_t merge_subtree(const TreeNode* nodes, uint32_t root, uint32_t end, uint3
   std::set<uint32_t> leaves;
   for (size_t i = 0; i < depths.size(); ++i)
     for (uint32_t upper = 0; upper < 1u << level; ++upper) {
-      const uint32_t place = root + depth_first_place(levels, level, upper);
-      if (place >= end) continue;
+      const uint32_t upper_node = root + depth_first_index(levels, level, upper);
+      if (upper_node >= end) continue;
       ++work[i].nodes;
-      if (!holds(nodes[place], depths[i])) continue;
-      if (below == 0) leaves.insert(place);
+      if (!holds(nodes[upper_node], depths[i])) continue;
+      if (below == 0) leaves.insert(upper_node);
       for (uint32_t leaf = upper << below; below > 0 && leaf < (upper + 1) << below; ++leaf) {
-        const uint32_t own = root + depth_first_place(levels, levels, leaf);
+        const uint32_t own = root + depth_first_index(levels, levels, leaf);
         if (own >= end) continue;
         ++work[i].nodes;
         if (holds(nodes[own], depths[i])) leaves.insert(own);
@@ -70,11 +70,11 @@ uint32_t merge_subtree(const TreeNode* nodes, uint32_t root, uint32_t end, uint3
 // What the pixels of a subgroup that lie in one cell ask and test, by their depths.
 std::vector<Work> walk_cell(const Upload& upload, uint32_t cell, const std::vector<float>& depths) {
   std::vector<Work> work(depths.size());
-  const TreeCell place = upload.cells()[cell];
-  const bool list = (place.end & ML_TREE_CELL_LIST) != 0;
-  uint32_t lights = list ? place.end & ~ML_TREE_CELL_LIST : 0;
+  const TreeCell stored = upload.cells()[cell];
+  const bool list = (stored.end & ML_TREE_CELL_LIST) != 0;
+  uint32_t lights = list ? stored.end & ~ML_TREE_CELL_LIST : 0;
   const TreeNode* nodes = upload.nodes();
-  for (uint32_t node = place.first; !list && node < place.end;) {
+  for (uint32_t node = stored.first; !list && node < stored.end;) {
     const uint32_t skip = tree_skip(nodes[node]), levels = std::countr_zero(skip + 1) - 1;
     bool hit = true;
     if (levels >= 6) {
@@ -84,7 +84,7 @@ std::vector<Work> walk_cell(const Upload& upload, uint32_t cell, const std::vect
         hit |= holds(nodes[node], depths[i]);
       }
     }
-    if (hit && levels <= 6) lights += merge_subtree(nodes, node, place.end, levels, depths, work);
+    if (hit && levels <= 6) lights += merge_subtree(nodes, node, stored.end, levels, depths, work);
     node += hit && levels > 6 ? 1 : skip;
   }
   for (Work& one : work) one.tested = lights;
@@ -101,7 +101,7 @@ std::vector<Work> walk_frame(const Upload& upload, const std::vector<float>& pos
       for (uint32_t first = 0; first < 64; first += lanes) {
         std::map<uint32_t, std::vector<size_t>> pixels_of_cell;
         for (uint32_t thread = first; thread < std::min(first + lanes, 64u); ++thread) {
-          const glm::uvec2 pixel = glm::uvec2(x, y) + gpu_data::place_in_block(thread);
+          const glm::uvec2 pixel = glm::uvec2(x, y) + gpu_data::pixel_in_block(thread);
           if (pixel.x >= width || pixel.y >= height) continue;
           const size_t i = size_t{pixel.y} * width + pixel.x;
           const float depth = position_depth[4 * i + 3];

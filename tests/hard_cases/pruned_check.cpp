@@ -32,7 +32,7 @@ void PrunedCheck::load(const Camera& camera, const std::vector<Light>& lights) {
   truth_ = frame_.find_contributing(input_, LightLists::none);
   lit_ = lit_pixels(frame_);
   Spans spans;
-  brute_.prepare(input_, spans, frame_.occupied_blocks().places());
+  brute_.prepare(input_, spans, frame_.occupied_blocks().positions());
   brute_.count(frame_, input_);
   reference_ = result_picture(frame_);
 }
@@ -55,7 +55,7 @@ ShadedAlgorithm& PrunedCheck::algorithm(const PrunedSettings& settings) {
 PrunedRun PrunedCheck::run(const PrunedSettings& settings) {
   ShadedAlgorithm& pruned = algorithm(settings);
   Spans spans;
-  pruned.prepare(input_, spans, frame_.occupied_blocks().places());
+  pruned.prepare(input_, spans, frame_.occupied_blocks().positions());
   pruned.count(frame_, input_);
   PrunedRun run;
   run.counts = read_counts(frame_);

@@ -1,4 +1,4 @@
-// Shading: singular places, extreme values, far from the origin.
+// Shading: singular positions, extreme values, far from the origin.
 #include <cmath>
 #include <limits>
 
@@ -100,7 +100,7 @@ TEST_F(HardCases, Case36_FarFromTheOriginIsTheSamePicture) {
     made.rectangle(move + glm::vec3(-4, 0, -8), {8, 0, 0}, {0, 8, 0});
     Exactness check(made.finish(), w, h);
     std::vector<Light> moved = lights;
-    // Lights are made camera-relative in double: their places keep the bits that the subtraction leaves.
+    // Lights are made camera-relative in double: their positions keep the bits that the subtraction leaves.
     for (size_t i = 0; i < moved.size(); ++i) {
       moved[i].position = glm::round(moved[i].position * 16.0) / 16.0;
       moved[i].position += glm::dvec3(offset);

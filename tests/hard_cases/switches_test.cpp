@@ -77,12 +77,12 @@ TEST_P(Switches, EveryCombinationLosesNothing) {
   for (size_t e = 0; e < options.size(); ++e) {
     SCOPED_TRACE(fmt::format("surroundings {}", e));
     // One in four with each, so that every pair of a switch and a surrounding is met where there are many.
-    std::vector<Trial> turn;
+    std::vector<Trial> chosen;
     for (size_t i = 0; i < trials.size(); ++i)
       if (trials.size() < 4 * options.size() || (i + i / options.size()) % options.size() == e)
-        turn.push_back(trials[i]);
+        chosen.push_back(trials[i]);
     Exactness check(yard(), width, height, options[e]);
-    const Seen seen = check.expect_trials(camera, lights, turn, 0);
+    const Seen seen = check.expect_trials(camera, lights, chosen, 0);
     EXPECT_GT(seen.lit_pixels(), 0u);
     EXPECT_LT(seen.lit_pixels(), uint64_t{width} * height) << "there is no sky";
   }

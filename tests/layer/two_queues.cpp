@@ -116,7 +116,7 @@ void change(VkQueueFamilyProperties& main, VkQueueFamilyProperties& added) {
   added = {VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT, 1, wish().bits, {1, 1, 1}};
 }
 
-// The device's families, all of them into `out` that it has room for; `at` finds the properties in an
+// The device's families, all of them into `out` that it has space for; `at` finds the properties in an
 // element.
 template <typename Element, typename Get, typename At>
 void families(uint32_t* count, Element* out, Get get, At at) {

@@ -48,9 +48,9 @@ const AlgorithmEntry& entry_of(const std::string& name) {
   return find_algorithm(name, "test");
 }
 
-// The algorithm's parameters that the grid has a word for, and the walk that it is the turn of; the others at
-// their defaults.
-Trial trial_of(const std::string& algorithm, const GridSettings& grid, size_t turn) {
+// The algorithm's parameters that the grid has a word for, and walk `number` of its walks, counted round; the
+// others at their defaults.
+Trial trial_of(const std::string& algorithm, const GridSettings& grid, size_t number) {
   const std::vector<ParameterInfo>& infos = entry_of(algorithm).parameters;
   Trial trial{algorithm, Parameters(infos)};
   const std::pair<const char*, ParameterValue> values[] = {
@@ -68,7 +68,7 @@ Trial trial_of(const std::string& algorithm, const GridSettings& grid, size_t tu
     if (trial.parameters.values().contains(name)) trial.parameters.set(infos, name, value, "test");
   for (const ParameterInfo& info : infos)
     if (info.name == "walk")
-      trial.parameters.set(infos, info.name, info.choices[turn % info.choices.size()], "test");
+      trial.parameters.set(infos, info.name, info.choices[number % info.choices.size()], "test");
   return trial;
 }
 

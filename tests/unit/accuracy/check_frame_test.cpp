@@ -68,14 +68,13 @@ struct Frame {
       for (uint32_t x = 0; x < width; ++x) {
         float z = -60.0f / (static_cast<float>(y - height / 3) + 2), bump = random.uniform(-0.2f, 0.2f);
         size_t p = position.pixel(x, y), d = depth.pixel(x, y);
-        float place[3] = {(static_cast<float>(x) / width - 0.5f) * -z, -2 + bump, z},
+        float at[3] = {(static_cast<float>(x) / width - 0.5f) * -z, -2 + bump, z},
               up = std::sqrt(1 - bump * bump);
         float facing[3] = {bump, up, 0};
         for (size_t k = 0; k < 3; ++k)
-          position.data[p + k] = place[k], normal.data[p + k] = facing[k], albedo.data[p + k] = 0.5f;
+          position.data[p + k] = at[k], normal.data[p + k] = facing[k], albedo.data[p + k] = 0.5f;
         depth.data[d] = -z;
-        SurfacePoint point{.position = {place[0], place[1], place[2]},
-                           .normal = {facing[0], facing[1], facing[2]}};
+        SurfacePoint point{.position = {at[0], at[1], at[2]}, .normal = {facing[0], facing[1], facing[2]}};
         contributing.data[d] = static_cast<float>(oracle_shade(point, oracle_lights, false).contributing);
         listed.data[d] = contributing.data[d] + 2;
       }
@@ -111,9 +110,9 @@ class CheckFrame : public testing::Test {
 
 TEST_F(CheckFrame, AgreesWithTheOracle) {
   Frame frame;
-  float most = 0;
-  for (float count : frame.contributing.data) most = std::max(most, count);
-  ASSERT_GT(most, 3) << "the frame must be worth checking";
+  float max_count = 0;
+  for (float count : frame.contributing.data) max_count = std::max(max_count, count);
+  ASSERT_GT(max_count, 3) << "the frame must be worth checking";
   EXPECT_EQ(run_script(frame), 0);
   EXPECT_EQ(run_script(frame, "--step 3"), 0);
 }

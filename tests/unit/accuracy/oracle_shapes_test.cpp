@@ -140,13 +140,13 @@ TEST(OracleShapes, ASegmentIsTheNearestOfTheOmniLightsOnIt) {
     const OracleAnswer one = shade(point, best, false);
     if (one.marginal) continue;
     EXPECT_EQ(whole.contributing, one.contributing);
-    // The places are up to 3e-4 m apart, which turns the direction that much over the distance.
+    // The points are up to 3e-4 m apart, which turns the direction that much over the distance.
     const double turned = oracle_falloff(nearest, capsule.radius) * 3e-4 / nearest;
     EXPECT_LE(glm::length(whole.radiance - one.radiance), 2e-3 * glm::length(whole.radiance) + turned);
   }
 }
 
-TEST(OracleShapes, AWedgeIsASpotAtTheNearestPlaceOfItsSegment) {
+TEST(OracleShapes, AWedgeIsASpotAtTheNearestPointOfItsSegment) {
   Random random(4);
   uint32_t contributing = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -214,15 +214,15 @@ TEST(OracleShapes, BoxFalloffIsZeroFromItsFacesOnAndNeverNotANumber) {
   Random random(6);
   for (int axis = 0; axis < 3; ++axis)
     for (double sign : {-1.0, 1.0}) {
-      dvec3 place{0.3, 0.1, -0.7};
-      place[axis] = sign * half[axis];
-      EXPECT_EQ(oracle_box_falloff(place, half), 0);
-      place[axis] = sign * std::nextafter(half[axis], 0);
-      EXPECT_GT(oracle_box_falloff(place, half), 0);
+      dvec3 position{0.3, 0.1, -0.7};
+      position[axis] = sign * half[axis];
+      EXPECT_EQ(oracle_box_falloff(position, half), 0);
+      position[axis] = sign * std::nextafter(half[axis], 0);
+      EXPECT_GT(oracle_box_falloff(position, half), 0);
       dvec3 flat = half;
       flat[axis] = 0;
       EXPECT_EQ(oracle_box_falloff(dvec3(0), flat), 0);
-      EXPECT_EQ(oracle_box_falloff(place, flat), 0);
+      EXPECT_EQ(oracle_box_falloff(position, flat), 0);
     }
   EXPECT_EQ(oracle_box_falloff(dvec3(std::nan("")), half), 0);
   EXPECT_NEAR(oracle_box_falloff({0.5, 0, 0}, half), 0.9375 * 0.9375 / 0.25, 1e-15);

@@ -43,7 +43,8 @@ struct FloatSum {
 
 // Window of a box along one axis; 0 outside.
 float slab(Device& device, const vec3& axis, float extent, const vec3& offset) {
-  const float place = glm::dot(offset, axis), ratio = device.divide(place * place, extent * extent);
+  const float coordinate = glm::dot(offset, axis),
+              ratio = device.divide(coordinate * coordinate, extent * extent);
   return ratio < 1 ? 1 - ratio * ratio : 0;
 }
 
@@ -186,12 +187,12 @@ OracleLight random_light(Random& random, const SurfacePoint& point, bool edge) {
     light.direction = in_single(direction);
     light.side = side;
     const dvec3 from = point.position - light.position;
-    const dvec3 place{glm::dot(from, side), glm::dot(from, glm::cross(light.direction, side)),
-                      glm::dot(from, light.direction)};
+    const dvec3 position{glm::dot(from, side), glm::dot(from, glm::cross(light.direction, side)),
+                         glm::dot(from, light.direction)};
     const bool face = edge && random.below(2) == 0;
     for (int axis = 0; axis < 3; ++axis)
       light.half_extents[axis] =
-          static_cast<float>(std::abs(place[axis]) * (axis == 1 && face ? nearly : 1.2) + 1e-3);
+          static_cast<float>(std::abs(position[axis]) * (axis == 1 && face ? nearly : 1.2) + 1e-3);
     light.radius = glm::length(light.half_extents);
   }
   return light;

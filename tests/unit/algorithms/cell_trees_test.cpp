@@ -51,12 +51,12 @@ struct Trees {
   // Listing 3: the lights that a pixel of this cell and depth gets to see, in order.
   std::vector<uint32_t> walk(uint32_t cell, float depth) const {
     std::vector<uint32_t> lights;
-    const gpu_data::TreeCell place = cell_trees.cells()[cell];
-    if (place.end & ML_TREE_CELL_LIST) {
-      const auto list = lists.entries().subspan(place.first, place.end & ~ML_TREE_CELL_LIST);
+    const gpu_data::TreeCell stored = cell_trees.cells()[cell];
+    if (stored.end & ML_TREE_CELL_LIST) {
+      const auto list = lists.entries().subspan(stored.first, stored.end & ~ML_TREE_CELL_LIST);
       return {list.begin(), list.end()};
     }
-    for (uint32_t i = place.first; i < place.end;) {
+    for (uint32_t i = stored.first; i < stored.end;) {
       const TreeNode& node = nodes[i];
       const bool hit = node.low <= depth && depth <= node.high;
       if (hit && tree_is_leaf(node))
@@ -114,22 +114,23 @@ TEST(CellTrees, FastPathGivesTheReferencesBits) {
   }
 }
 
-// Builds once more, in place, and expects the same nodes and nothing behind the room for them.
+// Builds once more, in place, and expects the same nodes and nothing written past their capacity.
 void expect_same_in_place(const Trees& trees, const TreeSettings& settings, Threads& threads) {
   const TreeNode untouched{1, 2, 3, 4};
-  const size_t room = CellTrees::capacity(trees.lists, settings);
-  std::vector<TreeNode> nodes(room + 100, untouched);
+  const size_t capacity = CellTrees::capacity(trees.lists, settings);
+  std::vector<TreeNode> nodes(capacity + 100, untouched);
   CellTrees in_place;
   in_place.build(trees.lists, settings, threads, nodes.data());
-  ASSERT_LE(in_place.nodes(), room);
+  ASSERT_LE(in_place.nodes(), capacity);
   in_place.copy_nodes(nodes.data(), threads);
   const auto bytes = [](const TreeNode& node) { return std::bit_cast<std::array<std::byte, 16>>(node); };
   const auto end = nodes.begin() + static_cast<ptrdiff_t>(in_place.nodes());
   EXPECT_TRUE(std::ranges::equal(std::span(nodes.begin(), end), trees.nodes, {}, bytes, bytes));
-  for (size_t i = room; i < nodes.size(); ++i) ASSERT_EQ(bytes(nodes[i]), bytes(untouched)) << "node " << i;
+  for (size_t i = capacity; i < nodes.size(); ++i)
+    ASSERT_EQ(bytes(nodes[i]), bytes(untouched)) << "node " << i;
 }
 
-TEST(CellTrees, BuiltInPlaceTheyAreTheSameAndKeepToTheirRoom) {
+TEST(CellTrees, BuiltInPlaceTheyAreTheSameAndKeepToTheirCapacity) {
   for (uint32_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
     Random random(5000 + seed);
@@ -142,7 +143,7 @@ TEST(CellTrees, BuiltInPlaceTheyAreTheSameAndKeepToTheirRoom) {
   }
 }
 
-TEST(CellTrees, DepthFirstPlacesAreThoseOfAWalk) {
+TEST(CellTrees, DepthFirstIndicesAreThoseOfAWalk) {
   for (uint32_t height = 0; height <= 12; ++height) {
     std::vector<std::pair<uint32_t, uint32_t>> order;  // (level, index)
     auto visit = [&](auto& self, uint32_t level, uint32_t index) -> void {
@@ -150,8 +151,8 @@ TEST(CellTrees, DepthFirstPlacesAreThoseOfAWalk) {
       if (level < height) self(self, level + 1, 2 * index), self(self, level + 1, 2 * index + 1);
     };
     visit(visit, 0, 0);
-    for (uint32_t place = 0; place < order.size(); ++place)
-      ASSERT_EQ(depth_first_place(height, order[place].first, order[place].second), place);
+    for (uint32_t i = 0; i < order.size(); ++i)
+      ASSERT_EQ(depth_first_index(height, order[i].first, order[i].second), i);
   }
 }
 
@@ -176,9 +177,9 @@ FroxelSettings one_tile() {
   return froxels;
 }
 
-// Trees of a light more than a power of two of full leaves take the most room for their lights; with more
+// Trees of a light more than a power of two of full leaves take the most memory for their lights; with more
 // than 2048 leaves these get larger.
-TEST(CellTrees, TheLargestTreesForTheirLightsKeepToTheirRoom) {
+TEST(CellTrees, TheLargestTreesForTheirLightsKeepToTheirCapacity) {
   for (uint32_t per_leaf : {1u, 3u, 8u, 64u})
     for (uint32_t full_leaves : {1u, 2u, 4u, 32u, 512u, 2048u, 4096u}) {
       const uint32_t count = per_leaf * full_leaves + 1;

@@ -36,7 +36,7 @@ TEST(DepthKey, AscendsWithDepthInFineSteps) {
       float a = random_depth(random), b = random_depth(random);
       if (a > b) std::swap(a, b);
       ASSERT_LE(key(a), key(b)) << a << " " << b;
-      ASSERT_LE(key(b), DepthKey::most);
+      ASSERT_LE(key(b), DepthKey::max);
       // As fine up to an octave beyond the far depth.
       const bool inside = near > 0 && a >= near && b <= 2 * std::max(near, far) && far / near < 0x1p29f;
       if (inside && b > a * 1.001f) {
@@ -55,7 +55,7 @@ TEST(DepthOrder, IsAStableSortForAnyRuns) {
     std::vector<float> z(count);
     for (float& depth : z) depth = random_depth(random);
     // Runs with gaps between them.
-    std::vector<PlaceRun> runs;
+    std::vector<IndexRun> runs;
     std::vector<uint32_t> expected;
     for (size_t first = random.below(3); first < count || runs.empty(); first += 1 + random.below(50)) {
       size_t length = first < count ? std::min<size_t>(random.below(30000), count - first) : 0;
@@ -68,7 +68,7 @@ TEST(DepthOrder, IsAStableSortForAnyRuns) {
     for (unsigned threads : {1u, 3u}) {
       Threads pool(threads);
       order.sort(z.data(), runs, key, pool);
-      ASSERT_TRUE(std::ranges::equal(order.places(), expected)) << "seed " << seed;
+      ASSERT_TRUE(std::ranges::equal(order.indices(), expected)) << "seed " << seed;
     }
   }
 }

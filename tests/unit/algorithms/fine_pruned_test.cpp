@@ -66,10 +66,10 @@ TEST(FinePruned, VisibleLightsAreSortedByTypeAndLeftInOrder) {
     std::stable_sort(expected.begin(), expected.end(),
                      [&](uint32_t a, uint32_t b) { return type_of(lights[a]) < type_of(lights[b]); });
     ASSERT_EQ(list.in_frustum(), expected.size());
-    for (uint32_t most : {1000000u, 40u, 1u}) {
-      list.sort(frame.frame, most, spans);
+    for (uint32_t max_lights : {1000000u, 40u, 1u}) {
+      list.sort(frame.frame, max_lights, spans);
       const auto kept = list.lights();
-      ASSERT_EQ(kept.size(), std::min<size_t>(most, expected.size()));
+      ASSERT_EQ(kept.size(), std::min<size_t>(max_lights, expected.size()));
       ASSERT_TRUE(std::equal(kept.begin(), kept.end(), expected.begin()));
       const gpu_data::VisibleHeader& header = list.header();
       ASSERT_LE(header.first_cone, header.first_box);

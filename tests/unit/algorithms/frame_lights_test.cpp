@@ -19,11 +19,12 @@ double farthest(const gpu_data::LightCore& core, const gpu_data::LightExtra& ext
   if (shape != LightShape::box) return core.radius;
   const glm::dvec3 half(gpu_data::box_half_extents(extra)), front(extra.direction),
       up(glm::cross(front, side));
-  double most = 0;
+  double max_distance = 0;
   for (double y : {-1.0, 1.0})
     for (double z : {-1.0, 1.0})
-      most = std::max(most, glm::length(side * half.x + up * (y * half.y) + front * (z * half.z)));
-  return most;
+      max_distance =
+          std::max(max_distance, glm::length(side * half.x + up * (y * half.y) + front * (z * half.z)));
+  return max_distance;
 }
 
 TEST(FrameLights, TheBoundingBallHoldsTheVolumeAndLittleMore) {

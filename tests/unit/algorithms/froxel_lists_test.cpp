@@ -46,7 +46,7 @@ TEST(FroxelLists, EveryLightIsListedWhereverAPixelCanSeeInsideIt) {
 }
 
 TEST(FroxelLists, VectorCodeGivesTheReferencesBits) {
-  uint32_t swept = 0;
+  uint32_t by_rows = 0;
   for (uint32_t seed = 0; seed < 300; ++seed) {
     Random random(1000 + seed);
     Camera camera = random_camera(random);
@@ -61,12 +61,12 @@ TEST(FroxelLists, VectorCodeGivesTheReferencesBits) {
     lists.build(fixture.frame, settings, no_limit, spans);
     reference.build(fixture.frame, settings);
     ASSERT_TRUE(std::ranges::equal(lists.offsets(), reference.offsets())) << "seed " << seed;
-    swept += lists.built_by_rows();
+    by_rows += lists.built_by_rows();
     ASSERT_TRUE(std::ranges::equal(lists.entries(), reference.entries())) << "seed " << seed;
   }
   // Both ways of writing lists were taken.
-  EXPECT_GT(swept, 30u);
-  EXPECT_LT(swept, 270u);
+  EXPECT_GT(by_rows, 30u);
+  EXPECT_LT(by_rows, 270u);
 }
 
 // Words, or with narrow indices half words, of which the last word may lack one.
@@ -79,7 +79,7 @@ std::vector<std::byte> as_uploaded(std::span<const uint32_t> entries, bool narro
 }
 
 TEST(FroxelLists, AreTheSameWhereTheyAreBuiltInUploadMemory) {
-  uint32_t swept = 0, narrow = 0;
+  uint32_t by_rows = 0, narrow = 0;
   for (uint32_t seed = 0; seed < 60; ++seed) {
     Random random(5000 + seed);
     Camera camera = random_camera(random);
@@ -101,11 +101,11 @@ TEST(FroxelLists, AreTheSameWhereTheyAreBuiltInUploadMemory) {
     ASSERT_TRUE(std::ranges::equal(cached.all(), bytes)) << "seed " << seed;
     ASSERT_TRUE(std::ranges::equal(uncached.all(), bytes)) << "seed " << seed;
     ASSERT_TRUE(std::ranges::equal(in_place.entries(), own.entries())) << "seed " << seed;
-    swept += own.built_by_rows();
+    by_rows += own.built_by_rows();
     narrow += own.grid_data().narrow;
   }
-  EXPECT_GT(swept, 5u);
-  EXPECT_LT(swept, 55u);
+  EXPECT_GT(by_rows, 5u);
+  EXPECT_LT(by_rows, 55u);
   EXPECT_GT(narrow, 10u);
 }
 

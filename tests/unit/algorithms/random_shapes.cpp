@@ -42,17 +42,17 @@ glm::dvec3 random_point_in(Random& random, const Light& light) {
   const glm::dvec3 axis = glm::normalize(glm::dvec3(light.direction)),
                    side = glm::normalize(glm::dvec3(light.side)), up = glm::cross(axis, side);
   // -1 .. 1, and often one of them.
-  const auto place = [&] { return std::clamp(random.uniform(-1.5f, 1.5f), -1.0f, 1.0f); };
+  const auto share = [&] { return std::clamp(random.uniform(-1.5f, 1.5f), -1.0f, 1.0f); };
   if (light.shape == LightShape::box)
-    return light.position + side * double{place() * light.half_extents.x} +
-           up * double{place() * light.half_extents.y} + axis * double{place() * light.half_extents.z};
+    return light.position + side * double{share() * light.half_extents.x} +
+           up * double{share() * light.half_extents.y} + axis * double{share() * light.half_extents.z};
   const double widest = has_cone(light.shape) ? double{light.outer_angle} : 3.141592653589793;
-  const double angle = widest * (0.5 + 0.5 * double{place()}),
+  const double angle = widest * (0.5 + 0.5 * double{share()}),
                turn = 6.283185307179586 * double{random.uniform()};
   const glm::dvec3 ray =
       axis * std::cos(angle) + (side * std::cos(turn) + up * std::sin(turn)) * std::sin(angle);
-  const double along = has_segment(light.shape) ? double{place() * light.half_length} : 0.0;
-  return light.position + side * along + ray * (double{light.radius} * (0.5 + 0.5 * double{place()}));
+  const double along = has_segment(light.shape) ? double{share() * light.half_length} : 0.0;
+  return light.position + side * along + ray * (double{light.radius} * (0.5 + 0.5 * double{share()}));
 }
 
 }  // namespace ml::test

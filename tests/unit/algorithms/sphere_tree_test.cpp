@@ -34,10 +34,10 @@ struct MovingLights {
     }
     fill();
   }
-  void move(Random& random, float most) {
+  void move(Random& random, float max_step) {
     for (Light& light : lights)
-      light.position +=
-          glm::dvec3(random.uniform(-most, most), random.uniform(-most, most), random.uniform(-most, most));
+      light.position += glm::dvec3(random.uniform(-max_step, max_step), random.uniform(-max_step, max_step),
+                                   random.uniform(-max_step, max_step));
     fill();
   }
   void fill() {

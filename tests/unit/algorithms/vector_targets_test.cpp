@@ -82,15 +82,15 @@ struct BoundedFrame : RandomFrame {
   const BoundsConstants bounds;
   const VisibleLights visible;
   std::vector<LightBox> boxes;
-  uint64_t froxels = 0;          // of all boxes
-  std::vector<uint32_t> places;  // backwards, as those of another order
+  uint64_t froxels = 0;           // of all boxes
+  std::vector<uint32_t> indices;  // backwards, as those of another order
   BoxOffsets offsets;
   explicit BoundedFrame(uint32_t seed)
       : RandomFrame(seed), bounds(constants()), visible(culled(frame(), bounds)) {
     reserve_padded(boxes, visible.count);
     froxels = scalar::bound(visible, bounds, boxes.data());
-    reserve_padded(places, visible.count);
-    for (size_t i = 0; i < visible.count; ++i) places[i] = static_cast<uint32_t>(visible.count - 1 - i);
+    reserve_padded(indices, visible.count);
+    for (size_t i = 0; i < visible.count; ++i) indices[i] = static_cast<uint32_t>(visible.count - 1 - i);
     offsets.build(bounds.grid);
   }
 };
@@ -168,7 +168,7 @@ TEST(VectorTargets, PairsAreThoseOfTheBoxes) {
       FroxelPairs pairs;
       reserve_pairs(pairs, given.froxels);
       for (bool ordered : {false, true}) {
-        const uint32_t* order = ordered ? given.places.data() : nullptr;
+        const uint32_t* order = ordered ? given.indices.data() : nullptr;
         simd::emit(given.boxes.data(), order, given.visible.count, grid, given.offsets, pairs);
         ASSERT_EQ(pairs.count, given.froxels);
         size_t next = 0;
@@ -205,7 +205,7 @@ TEST(VectorTargets, BallTestGivesTheScalarPairs) {
         reaches[visible.index[i]] = {-depths.low, depths.high};
       }
       for (bool ordered : {false, true}) {
-        const uint32_t* order = ordered ? given.places.data() : nullptr;
+        const uint32_t* order = ordered ? given.indices.data() : nullptr;
         const DepthReach* depths = ordered ? reaches.data() : nullptr;
         simd::emit_tested(visible, boxes, order, 0, visible.count, given.bounds, test, given.offsets, depths,
                           pairs);
@@ -249,13 +249,13 @@ TEST(VectorTargets, RowListsAreThoseOfTheBoxes) {
         const uint32_t longest = simd::list_rows(boxes.data(), nullptr, visible.count, grid, light_end,
                                                  memory, offsets.data(), list.data());
         ASSERT_EQ(offsets[grid.cells()], sum);
-        size_t most = 0;
+        size_t max_length = 0;
         for (uint32_t cell = 0; cell < grid.cells(); ++cell) {
           const auto found = std::span(list).subspan(offsets[cell], offsets[cell + 1] - offsets[cell]);
           ASSERT_TRUE(std::ranges::equal(found, expected[cell])) << "cell " << cell;
-          most = std::max(most, found.size());
+          max_length = std::max(max_length, found.size());
         }
-        ASSERT_EQ(longest, most);
+        ASSERT_EQ(longest, max_length);
       }
     }
   });

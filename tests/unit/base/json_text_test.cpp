@@ -19,9 +19,9 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
-void expect_at(const std::string& text, const std::string& place) {
+void expect_at(const std::string& text, const std::string& where) {
   std::string what = refusal(text);
-  EXPECT_TRUE(what.starts_with("f.json: " + place + ": ")) << what;
+  EXPECT_TRUE(what.starts_with("f.json: " + where + ": ")) << what;
 }
 
 TEST(JsonText, ReadsWhatTheLibraryReads) {

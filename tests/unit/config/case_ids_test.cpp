@@ -21,7 +21,7 @@ std::vector<std::string> ids(const std::string& text) {
 
 void expect_good(const std::vector<Case>& cases, const Config& config) {
   std::set<std::string> seen;
-  std::set<std::pair<size_t, size_t>> places;
+  std::set<std::pair<size_t, size_t>> indices;
   size_t expected = 0;
   for (const ml::Setup& setup : config.setups) expected += setup.algorithms.size();
   RC_ASSERT(cases.size() == expected);
@@ -33,7 +33,7 @@ void expect_good(const std::vector<Case>& cases, const Config& config) {
     RC_ASSERT(seen.insert(each.id).second);
     RC_ASSERT(each.setup < config.setups.size());
     RC_ASSERT(each.algorithm < config.setups[each.setup].algorithms.size());
-    RC_ASSERT(places.insert({each.setup, each.algorithm}).second);
+    RC_ASSERT(indices.insert({each.setup, each.algorithm}).second);
   }
 }
 

@@ -63,7 +63,7 @@ TEST(GltfAccessor, LowestSignedNormalisedIsMinusOne) {
 
 TEST(GltfAccessor, InterleavedWithStrideAndOffsets) {
   GltfTestFile file = triangle_file();
-  // Position, normal and texture coordinate of each vertex behind 8 bytes that belong to nobody.
+  // Position, normal and texture coordinate of each vertex after 8 bytes that belong to nobody.
   std::vector<float> data = {9, 9};
   std::vector<float> corners = {0, 0, 0, 0, 0, 4, 4, 0, 0};
   for (size_t v = 0; v < 3; ++v) {

@@ -22,7 +22,7 @@ inline std::string message_of(const std::string& bytes, int scene = -1) {
 struct BadFile {
   const char* name;
   std::function<void(GltfTestFile&)> spoil;  // of triangle_file()
-  std::string message;                       // behind "test.glb: "
+  std::string message;                       // after "test.glb: "
 };
 
 inline void PrintTo(const BadFile& file, std::ostream* out) {

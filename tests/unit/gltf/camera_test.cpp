@@ -57,7 +57,7 @@ TEST(GltfCamera, NamesAreUnique) {
   EXPECT_EQ(names, (std::vector<std::string>{"default", "camera-0", "twin", "twin-2", "default-2"}));
 }
 
-TEST(GltfCamera, NumbersBehindNamesMakeThemNeitherEqualNorTooLong) {
+TEST(GltfCamera, NumbersAfterNamesMakeThemNeitherEqualNorTooLong) {
   GltfTestFile file = triangle_file();
   const std::string longest(100, 'x');
   for (const std::string& name : {std::string("default"), std::string("default-2"), longest, longest}) {

@@ -158,7 +158,7 @@ TEST(GltfMaterial, BrokenJpegsAreWhite) {
                   {tiny_jpeg.begin(), tiny_jpeg.begin() + static_cast<ptrdiff_t>(std::max<size_t>(size, 1))}),
               "")
         << size;
-  // Huffman sizes that add up to more than the 256 codes a table has room for.
+  // Huffman sizes that add up to more than the 256 codes a table has space for.
   std::vector<uint8_t> bad = tiny_jpeg;
   for (size_t i = 0; i + 21 < bad.size(); ++i)
     if (bad[i] == 0xff && bad[i + 1] == 0xc4)
@@ -166,7 +166,7 @@ TEST(GltfMaterial, BrokenJpegsAreWhite) {
   EXPECT_NE(trouble_with(bad), "");
 }
 
-// The header of a PNG of that size, and nothing behind it.
+// The header of a PNG of that size, and nothing after it.
 std::vector<uint8_t> png_header(uint32_t width, uint32_t height) {
   std::vector<uint8_t> png = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
   for (uint32_t side : {width, height})

@@ -92,15 +92,15 @@ TEST(GltfLight, OwnShapesThatAreIncompleteAreErrors) {
     }
     return "accepted";
   };
-  const std::string place = "test.glb: extensions.KHR_lights_punctual.lights[0]";
-  EXPECT_EQ(message({{"shape", "capsule"}}, "point"), place + ".extras.manylights: 'half_length' is missing");
-  EXPECT_EQ(message({{"shape", "box"}}, "point"), place + ".extras.manylights: 'half_extents' is missing");
+  const std::string where = "test.glb: extensions.KHR_lights_punctual.lights[0]";
+  EXPECT_EQ(message({{"shape", "capsule"}}, "point"), where + ".extras.manylights: 'half_length' is missing");
+  EXPECT_EQ(message({{"shape", "box"}}, "point"), where + ".extras.manylights: 'half_extents' is missing");
   EXPECT_EQ(message({{"shape", "wedge"}, {"half_length", 1}}, "point"),
-            place + ".type: is 'point', expected 'spot' for the shape 'wedge'");
+            where + ".type: is 'point', expected 'spot' for the shape 'wedge'");
   EXPECT_EQ(message({{"shape", "boxx"}}, "point"),
-            place + ".extras.manylights.shape: unknown value 'boxx', did you mean 'box'?");
+            where + ".extras.manylights.shape: unknown value 'boxx', did you mean 'box'?");
   EXPECT_EQ(message({{"shape", "box"}, {"half_extents", {1, 2}}}, "point"),
-            place + ".extras.manylights.half_extents: expected 3 numbers");
+            where + ".extras.manylights.half_extents: expected 3 numbers");
 }
 
 // Other programs hide a light by scale 0: it is counted, and the level stays.

@@ -77,18 +77,18 @@ TEST(LightScripts, ASteadyFrameAllocatesNothing) {
     LightSet set(spec, level());
     std::vector<Light> out;
     set.at(0, 50, 10, out);
-    const Light* place = out.data();
+    const Light* address = out.data();
     size_t capacity = out.capacity();
     for (uint32_t frame = 1; frame < 50; ++frame) {
       set.at(frame, 50, 10, out);
-      EXPECT_EQ(out.data(), place);
+      EXPECT_EQ(out.data(), address);
       EXPECT_EQ(out.capacity(), capacity);
     }
   }
 }
 
-// Spawning lights stand still, so each can be told by its place.
-TEST(LightScripts, IdentityIsThePlaceInTheSet) {
+// Spawning lights stand still, so each can be told by its position.
+TEST(LightScripts, IdentityIsTheIndexInTheSet) {
   for (LightScript script : {LightScript::none, LightScript::spawn}) {
     LightSpec spec = spec_of(500);
     spec.script = script;

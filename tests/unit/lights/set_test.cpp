@@ -27,7 +27,7 @@ TEST(LightSet, TakesEveryCountUpToTheLargest) {
   EXPECT_THROW(LightSet(spec_of(1048577), level()), UsageError);
 }
 
-TEST(LightSet, ALightKeepsItsPlaceColourAndShareOfTheLawWhateverTheCount) {
+TEST(LightSet, ALightKeepsItsPositionColourAndQuantileWhateverTheCount) {
   LightSpec small = spec_of(100), large = spec_of(3000);
   small.spot_fraction = large.spot_fraction = 0.5f;
   LightSet a(small, level()), b(large, level());
@@ -116,7 +116,7 @@ TEST(LightSet, SurfaceLightsStandOnTheOuterSideWithinHalfTheirRadius) {
   EXPECT_NEAR(lifted / outside, 0.25, 0.02);
 }
 
-TEST(LightSet, RadiusAndHeightOverrideTheLaw) {
+TEST(LightSet, RadiusAndHeightOverrideTheDistribution) {
   LightSpec spec = spec_of(1000, Placement::area);
   spec.radius = 3;
   spec.height = 1.5f;

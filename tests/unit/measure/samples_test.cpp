@@ -9,7 +9,7 @@
 namespace ml {
 namespace {
 
-TEST(SampleTable, KeepsEverySampleInItsPlace) {
+TEST(SampleTable, KeepsEverySampleWhereItBelongs) {
   SampleTable table(3, 4);
   for (uint32_t repeat = 0; repeat < 3; ++repeat) {
     for (uint32_t frame = 0; frame < 4; ++frame) table.set("shade", repeat, frame, repeat * 10 + frame);
@@ -93,15 +93,16 @@ TEST(InterleavedOrder, EveryPermutationIsEquallyLikely) {
 }
 
 // No case is measured first (or last) more often than chance allows, within one lap too.
-TEST(InterleavedOrder, EveryCaseTakesEveryPlace) {
+TEST(InterleavedOrder, EveryCaseTakesEveryPosition) {
   constexpr uint32_t cases = 5, frames = 5000;
   std::array<std::array<int, cases>, cases> counts{};
   for (uint32_t frame = 0; frame < frames; ++frame) {
     std::vector<uint32_t> order = interleaved_order(cases, 7, 0, frame);
-    for (uint32_t place = 0; place < cases; ++place) ++counts[place][order[place]];
+    for (uint32_t position = 0; position < cases; ++position) ++counts[position][order[position]];
   }
-  for (const auto& place : counts) {
-    for (int count : place) EXPECT_NEAR(count, frames / cases, 4.5 * 28.3);  // 28.3 = sqrt(5000 * 0.2 * 0.8)
+  for (const auto& position : counts) {
+    for (int count : position)
+      EXPECT_NEAR(count, frames / cases, 4.5 * 28.3);  // 28.3 = sqrt(5000 * 0.2 * 0.8)
   }
 }
 

@@ -152,13 +152,13 @@ TEST(ResultJson, TextThatIsNotUtf8DoesNotLoseTheRun) {
 
 TEST(ResultSchema, EveryRequiredKeyIsMissed) {
   const json whole = to_json(sample_result());
-  auto expect_missed = [&](const json::json_pointer& place) {
-    for (const auto& [key, value] : whole.at(place).items()) {
+  auto expect_missed = [&](const json::json_pointer& where) {
+    for (const auto& [key, value] : whole.at(where).items()) {
       if (later_keys.contains(key)) continue;
       json cut = whole;
-      cut.at(place).erase(key);
+      cut.at(where).erase(key);
       std::string found = joined(result_violations(cut));
-      EXPECT_TRUE(contains(found, key)) << place.to_string() << "/" << key << ": " << found;
+      EXPECT_TRUE(contains(found, key)) << where.to_string() << "/" << key << ": " << found;
     }
   };
   expect_missed(json::json_pointer(""));
@@ -171,7 +171,7 @@ TEST(ResultSchema, EveryRequiredKeyIsMissed) {
 
 TEST(ResultSchema, SaysWhereAndWhat) {
   struct Mutation {
-    const char* place;
+    const char* where;
     json value;
     const char* path;  // what the message must begin with
   };
@@ -202,10 +202,10 @@ TEST(ResultSchema, SaysWhereAndWhat) {
   };
   for (const Mutation& mutation : mutations) {
     json document = to_json(sample_result());
-    document[json::json_pointer(mutation.place)] = mutation.value;
+    document[json::json_pointer(mutation.where)] = mutation.value;
     std::vector<std::string> found = result_violations(document);
-    ASSERT_FALSE(found.empty()) << mutation.place;
-    EXPECT_EQ(found.front().rfind(mutation.path, 0), 0u) << mutation.place << ": " << joined(found);
+    ASSERT_FALSE(found.empty()) << mutation.where;
+    EXPECT_EQ(found.front().rfind(mutation.path, 0), 0u) << mutation.where << ": " << joined(found);
     for (const std::string& line : found) EXPECT_FALSE(contains(line, "\n")) << line;
   }
 }

@@ -90,7 +90,7 @@ TEST(RayCaster, EmptyScenesAndFlatTrianglesAreNeverHit) {
   EXPECT_FALSE(RayCaster(flat).nearest({0, 0.5, 0}, {1, 0, 0}));
 }
 
-TEST(RayCaster, ManyTrianglesAtOnePlaceAreAllKeptAndTheLowestWins) {
+TEST(RayCaster, ManyTrianglesAtOnePositionAreAllKeptAndTheLowestWins) {
   Scene scene;
   for (float x : {0.0f, 1.0f}) scene.vertices.push_back({{x, 0, 0}, {0, 1, 0}, {0, 0}});
   scene.vertices.push_back({{0, 0, 1}, {0, 1, 0}, {0, 0}});

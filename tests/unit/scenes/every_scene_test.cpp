@@ -113,7 +113,7 @@ TEST_P(EveryScene, LightsArePerPointAsManyAsWanted) {
   for (const WantedLights& lights : wanted().lights) {
     SCOPED_TRACE(std::to_string(lights.count) + " lights");
     double mean = 0;
-    uint32_t most = 0;
+    uint32_t max = 0;
     for (uint32_t seed = 1; seed <= lights.seeds; ++seed) {
       LightSpec spec;
       spec.count = lights.count;
@@ -124,10 +124,10 @@ TEST_P(EveryScene, LightsArePerPointAsManyAsWanted) {
       for (const Light& light : set.base()) expect_in(lights.radius, light.radius, "radius");
       const LightsSeen seen = lights_seen(made, rays, made.paths[0], set);
       mean += seen.mean / lights.seeds;
-      most = std::max(most, seen.most);
+      max = std::max(max, seen.max);
     }
     expect_in(lights.mean, mean, "mean");
-    expect_in(lights.most, most, "most");
+    expect_in(lights.max, max, "most");
   }
 }
 

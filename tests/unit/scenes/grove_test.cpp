@@ -26,12 +26,12 @@ TEST(Grove, HasTheSlatsOfItsDescription) {
   FAIL() << "no slats";
 }
 
-// Places along the way are as far apart as their lengths say, and directions are those of the way.
+// Points along the way are as far apart as their lengths say, and directions are those of the way.
 TEST(GroveWay, IsMeasuredByLength) {
   GroveWay way;
   constexpr double kStep = 0.25;
   for (double length = 0; length + kStep < way.length(); length += kStep) {
-    GroveWay::Place here = way.at(length), next = way.at(length + kStep);
+    GroveWay::WayPoint here = way.at(length), next = way.at(length + kStep);
     glm::dvec2 step = next.point - here.point;
     EXPECT_NEAR(std::sqrt(glm::dot(step, step)), kStep, 1e-3) << length;
     EXPECT_NEAR(glm::dot(step, here.ahead), kStep, 2e-3) << length;

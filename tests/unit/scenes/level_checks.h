@@ -89,8 +89,8 @@ inline std::vector<bool> double_sided(const Scene& scene) {
   return result;
 }
 
-// Along a path: no view of a wall's inner side, nothing within half a
-// metre, a way that is free from each frame to the next, and something below.
+// Along a path: no view of a wall's inner side, nothing within half a metre, a way that is free from each
+// frame to the next, and something below.
 inline void expect_free_camera(const Scene& scene, const RayCaster& rays, const CameraPath& path,
                                uint32_t frames, const Range& median) {
   std::vector<bool> both_sides = double_sided(scene);
@@ -117,7 +117,7 @@ inline void expect_free_camera(const Scene& scene, const RayCaster& rays, const 
 // How many lights' balls hold a visible point, over every fourth frame of a path of 120.
 struct LightsSeen {
   double mean = 0;
-  uint32_t most = 0;
+  uint32_t max = 0;
 };
 inline LightsSeen lights_seen(const Scene& scene, const RayCaster& rays, const CameraPath& path,
                               const LightSet& set) {
@@ -135,7 +135,7 @@ inline LightsSeen lights_seen(const Scene& scene, const RayCaster& rays, const C
       }
       ++points;
       lights += here;
-      seen.most = std::max(seen.most, here);
+      seen.max = std::max(seen.max, here);
     }
   }
   seen.mean = lights / points;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "harness/base/error.h"
-#include "harness/lights/law.h"
+#include "harness/lights/radius_distribution.h"
 #include "level_checks.h"
 #include "scenes/scene_registry.h"
 
@@ -95,7 +95,7 @@ TEST(LightDefaults, AScriptIsTheScenesOwnWhereTheSpecNamesNone) {
   EXPECT_FALSE(moves());
 }
 
-// The file's own lights keep their places and sizes, whatever the scene's defaults say.
+// The file's own lights keep their positions and sizes, whatever the scene's defaults say.
 TEST(LightDefaults, LeaveAFilesLightsAlone) {
   Scene plane = make_scene("plane");
   Light light;

@@ -103,7 +103,7 @@ TEST(MuseumLights, AreThoseOfTheirDescription) {
 }
 
 // As many in one room as in any other, and the same light whatever the count is.
-TEST(MuseumLights, AreSpreadOverTheRoomsAndKeepTheirPlaces) {
+TEST(MuseumLights, AreSpreadOverTheRoomsAndKeepTheirPositions) {
   std::vector<Light> many = stage_lights(300), few = stage_lights(37);
   std::vector<uint32_t> in_room(15);
   for (const Light& light : many) {

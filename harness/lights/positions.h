@@ -10,10 +10,10 @@
 
 namespace ml {
 
-class LightPlaces {
+class LightPositions {
  public:
-  // `scene` must outlive the places. Throws UsageError when the scene cannot carry the placement.
-  LightPlaces(const LightSpec& spec, const Scene& scene);
+  // `scene` must outlive the positions. Throws UsageError when the scene cannot carry the placement.
+  LightPositions(const LightSpec& spec, const Scene& scene);
   // m; the radius lifts lights off surfaces.
   glm::dvec3 at(uint32_t light, double radius) const;
 

@@ -1,12 +1,12 @@
 // Which shape a light of a run has, and how large it is then.
 //
-// Every shape reaches as much space as an omni light (a wedge: as a spot) of the radius R that the law of
-// radii gave, so that overdraw is comparable whatever the mix:
+// Every shape reaches as much space as an omni light (a wedge: as a spot) of the radius R that the
+// distribution of radii gave, so that overdraw is comparable whatever the mix:
 //   capsule  half_length = k r, k in [0.5, 2]; r = R / cbrt(1 + 1.5 k). Any direction.
 //   wedge    a stage light like the spots, half_length = k r, k in [0.5, 2];
 //            r = R / cbrt(1 + 3 k a / (pi (1 - cos a))) with the outer half-angle a.
 //   box      proportions 1 : [0.5, 1.5] : [0.5, 1.5], volume 4/3 pi R^3. Any direction.
-// Intensities follow the law with r (boxes: with R).
+// Intensities are those of an omni light of radius r (boxes: R).
 #pragma once
 
 #include <string>

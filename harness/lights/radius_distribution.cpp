@@ -1,4 +1,4 @@
-#include "harness/lights/law.h"
+#include "harness/lights/radius_distribution.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
-// The law of light radii and how its size follows from the number of lights (scenes.md: bounded Pareto,
-// overdraw formulas).
+// The distribution of light radii and how its size follows from the number of lights (scenes.md: bounded
+// Pareto, overdraw formulas).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace ml {
 
-// E[r], E[r^2] and E[r^3] of the radius law with s = 1.
+// E[r], E[r^2] and E[r^3] of the distribution with s = 1.
 struct RadiusMoments {
   double mean, square, cube;
 };

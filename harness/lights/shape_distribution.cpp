@@ -1,4 +1,4 @@
-#include "harness/lights/shape_law.h"
+#include "harness/lights/shape_distribution.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "harness/lights/places.h"
+#include "harness/lights/positions.h"
 
 #include "harness/lights/stage.h"
 
@@ -16,7 +16,7 @@ Bounds within(const Bounds& room) {
 
 }  // namespace
 
-LightPlaces::LightPlaces(const LightSpec& spec, const Scene& scene)
+LightPositions::LightPositions(const LightSpec& spec, const Scene& scene)
     : seed_hash_(hash_u32(spec.seed)), height_(spec.height) {
   const Placement placement = *spec.placement;
   const Bounds box = placement == Placement::room ? within(rooms_of(scene, placement).front()) : scene.bounds;
@@ -27,11 +27,11 @@ LightPlaces::LightPlaces(const LightSpec& spec, const Scene& scene)
     surface_.emplace(scene, placement == Placement::area);
 }
 
-glm::dvec3 LightPlaces::at(uint32_t light, double radius) const {
+glm::dvec3 LightPositions::at(uint32_t light, double radius) const {
   if (clumps_) return clumps_->at(light, radius);
   LightNumbers number(seed_hash_, light);
-  glm::dvec3 choice(number(LightDimension::place_0), number(LightDimension::place_1),
-                    number(LightDimension::place_2));
+  glm::dvec3 choice(number(LightDimension::position_0), number(LightDimension::position_1),
+                    number(LightDimension::position_2));
   if (!surface_) return corner_ + extent_ * choice;
   SurfaceSampler::Point point = surface_->at(choice.x, choice.y, choice.z);
   double lift = height_ > 0 ? height_ : 0.5 * radius * number(LightDimension::lift);

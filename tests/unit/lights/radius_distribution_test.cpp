@@ -1,4 +1,4 @@
-#include "harness/lights/law.h"
+#include "harness/lights/radius_distribution.h"
 
 #include <gtest/gtest.h>
 
@@ -12,13 +12,13 @@
 namespace ml {
 namespace {
 
-TEST(RadiusDistribution, MomentsAreThoseOfTheParetoLaw) {
+TEST(RadiusDistribution, MomentsAreThoseOfABoundedPareto) {
   RadiusMoments moments = radius_moments(32);
   EXPECT_NEAR(moments.mean, 1.94, 0.005);
   EXPECT_NEAR(moments.square, 6.94, 0.005);
   EXPECT_NEAR(moments.cube, 62.1, 0.1);
   for (float ratio : {1.0f, 2.0f, 32.0f, 1000.0f}) {
-    // The midpoint rule in u over the law itself.
+    // The midpoint rule in u over the distribution itself.
     double mean = 0, square = 0, cube = 0;
     constexpr int kSteps = 1 << 22;
     for (int i = 0; i < kSteps; ++i) {
