@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "harness/gpu/commands.h"
 #include "tests/support/test_device.h"
 
 namespace ml::test {
