@@ -185,6 +185,7 @@ void Level::set_pose(DrawItem& item, const DrawPose& pose) {
   const gpu_data::MotionData data{pose.linear, pose.pivot, pose.moved_pivot};
   std::memcpy(item.push.data() + sizeof(gpu_data::MaterialData), &data, sizeof data);
   item.seen = pose.seen;
+  item.mirrored = pose.mirrored;
 }
 
 void Level::move_to(double time) {
@@ -198,6 +199,7 @@ gpu::DrawCall Level::call_of(const DrawItem& item, const gpu::RasterProgram& pro
   call.first_index = item.first_index;
   call.index_count = item.index_count;
   call.double_sided = item.double_sided;
+  call.mirrored = item.mirrored;
   call.program = &program;
   call.push = item.push;
   call.bindings = {{"BaseColor", *item.base_color},

@@ -54,6 +54,7 @@ class Level {
     std::vector<std::byte> push;
     std::optional<DrawMotion> motion = std::nullopt;
     bool seen = true;
+    bool mirrored = false;  // in this frame
   };
   std::vector<DrawItem> items_;
   std::shared_ptr<const NodeMotions> motions_;  // null where no mesh moves

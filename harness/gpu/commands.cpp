@@ -162,6 +162,7 @@ void Commands::raster(const RasterTargets& targets, const Buffer& vertices, cons
     const Layout& layout = program.impl().layout;
     c.now().bindPipeline(vk::PipelineBindPoint::eGraphics, *program.impl().pipeline);
     c.now().bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout.pipeline_layout, 0, sets[i], {});
+    c.now().setFrontFace(draws[i].mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
     c.now().setCullMode(draws[i].double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
     c.push(layout, draws[i].push, program.name());
     c.now().drawIndexed(draws[i].index_count, 1, draws[i].first_index, 0, 0);

@@ -53,6 +53,7 @@ enum class Timing {
 struct DrawCall {
   uint32_t first_index = 0, index_count = 0;
   bool double_sided = false;
+  bool mirrored = false;  // its vertices are: fronts are clockwise then
   const RasterProgram* program = nullptr;
   Bindings bindings;
   std::vector<std::byte> push;

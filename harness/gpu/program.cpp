@@ -205,7 +205,8 @@ RasterProgram::RasterProgram(Device& owner, std::span<const uint32_t> vertex,
     opaque.colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA;
     std::vector<vk::PipelineColorBlendAttachmentState> blends(state.colors.size(), opaque);
     vk::PipelineColorBlendStateCreateInfo blend({}, VK_FALSE, vk::LogicOp::eCopy, blends);
-    std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor, vk::DynamicState::eCullMode};
+    std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor, vk::DynamicState::eCullMode,
+                       vk::DynamicState::eFrontFace};
     vk::PipelineDynamicStateCreateInfo dynamic_state({}, dynamic);
     std::vector<vk::Format> colors;
     for (Format format : state.colors) colors.push_back(vulkan_format(format));

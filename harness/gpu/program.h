@@ -50,7 +50,7 @@ struct RasterState {
   bool at_equal_depth = false;
 };
 
-// Triangles with reversed depth; cull mode is set per draw. An empty `fragment`: depth alone.
+// Triangles with reversed depth; cull mode and front face are set per draw. An empty `fragment`: depth alone.
 class RasterProgram {
  public:
   RasterProgram(Device& device, std::span<const uint32_t> vertex, std::span<const uint32_t> fragment,

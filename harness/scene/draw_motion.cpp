@@ -67,6 +67,7 @@ DrawPose pose_of(const NodeMotions& motions, const glm::dvec3& center, const Dra
   for (int axis = 0; axis < 3; ++axis) pose.seen = pose.seen && std::abs(pivot[axis]) <= max_coordinate;
   const double volume = glm::determinant(glm::dmat3(moved));
   pose.seen = pose.seen && std::isfinite(volume) && volume != 0;
+  pose.mirrored = volume < 0;
   return pose;
 }
 

@@ -69,32 +69,53 @@ Scene with_box_at(const Pose& pose) {
     vertex.position = glm::vec3(matrix * glm::vec4(vertex.position, 1));
     vertex.normal = glm::normalize(normals * vertex.normal);
   }
+  if (glm::determinant(glm::mat3(matrix)) < 0)
+    for (size_t i = scene.draws.back().first_index; i < scene.indices.size(); i += 3)
+      std::swap(scene.indices[i], scene.indices[i + 1]);
   return scene;
 }
 
-TEST_F(MovingMesh, IsSeenWhereItsNodeCarriesIt) {
-  const double half = std::sin(0.35);
-  const Pose begin, end{{2, 0.5, -1},
-                        glm::normalize(glm::dvec4(0.1, half, 0.05, std::sqrt(1 - half * half))),
-                        {1.5, 0.6, 2}};
-  const Scene moving = with_moving_box(begin, end);
-  for (bool at_end : {false, true}) {
-    const View seen = look(moving, at_end ? 2 : 0, true),
-               truth = look(with_box_at(at_end ? end : begin), 0, false);
-    uint32_t differ = 0, same = 0;
-    for (size_t pixel = 0; pixel < size_t{width} * height; ++pixel) {
-      double apart = 0;
-      for (size_t c = 0; c < 4; ++c) {
-        apart = std::max(
-            apart, std::abs(double{seen.position[4 * pixel + c]} - double{truth.position[4 * pixel + c]}));
-        if (c < 3)
+class MovingMeshPoses : public MovingMesh {
+ protected:
+  static void expect_seen_there(const Pose& end, bool double_sided) {
+    Scene moving = with_moving_box({}, end);
+    for (Material& material : moving.materials) material.double_sided = double_sided;
+    for (bool at_end : {false, true}) {
+      Scene there = with_box_at(at_end ? end : Pose{});
+      for (Material& material : there.materials) material.double_sided = double_sided;
+      const View seen = look(moving, at_end ? 2 : 0, true), truth = look(there, 0, false);
+      uint32_t differ = 0, same = 0;
+      for (size_t pixel = 0; pixel < size_t{width} * height; ++pixel) {
+        double apart = 0;
+        for (size_t c = 0; c < 4; ++c) {
           apart = std::max(
-              apart, std::abs(double{seen.normal[4 * pixel + c]} - double{truth.normal[4 * pixel + c]}));
+              apart, std::abs(double{seen.position[4 * pixel + c]} - double{truth.position[4 * pixel + c]}));
+          if (c < 3)
+            apart = std::max(
+                apart, std::abs(double{seen.normal[4 * pixel + c]} - double{truth.normal[4 * pixel + c]}));
+        }
+        ++(apart > 2e-3 ? differ : same);
       }
-      ++(apart > 2e-3 ? differ : same);
+      EXPECT_LT(differ, 8u) << "but for the box's outline";
+      EXPECT_GT(same, 5000u);
     }
-    EXPECT_LT(differ, 8u) << "but for the box's outline";
-    EXPECT_GT(same, 5000u);
+  }
+};
+
+TEST_F(MovingMeshPoses, AreSeenWhereTheNodeCarriesThem) {
+  const double half = std::sin(0.35);
+  const glm::dvec4 rotation = glm::normalize(glm::dvec4(0.1, half, 0.05, std::sqrt(1 - half * half)));
+  expect_seen_there({{2, 0.5, -1}, rotation, {1.5, 0.6, 2}}, true);
+  expect_seen_there({{2, 0.5, -1}, rotation, {1.5, 0.6, 2}}, false);
+}
+
+// An odd number of axes of negative scale turns triangles over: fronts stay fronts, also where backs are culled.
+TEST_F(MovingMeshPoses, MirroredKeepTheirFronts) {
+  for (bool double_sided : {false, true}) {
+    SCOPED_TRACE(double_sided);
+    expect_seen_there({{2, 0.5, -1}, {0, 0, 0, 1}, {-1.5, 0.6, 2}}, double_sided);
+    expect_seen_there({{-1, 2.5, 0}, {0, 0, 0, 1}, {1.5, -0.6, 1}}, double_sided);
+    expect_seen_there({{-1, 2.5, 0}, {0, 0, 0, 1}, {-1, -0.6, 1}}, double_sided);
   }
 }
 
