@@ -3,7 +3,7 @@
 #
 #     scripts/check_static.sh [format|tidy|spirv|schemas|architecture|scripts]...      default: all
 #
-# Needs build/release (scripts/build.sh release) for spirv and schemas, and build/clang (scripts/build.sh clang) for tidy.
+# Needs build/release (scripts/build.sh release) for spirv and schemas, and build/asan (scripts/build.sh asan manylights) for tidy.
 # Exit code 0: nothing found; 1: something found.
 set -u
 
@@ -15,15 +15,15 @@ format() { sources | xargs clang-format --dry-run -Werror; }
 # The program's own sources; tests are compiled with clang's warnings by the sanitizer builds.
 # shellcheck disable=SC2016  # the inner shell expands it
 tidy() {
-  if [ ! -f build/clang/compile_commands.json ]; then
-    echo "build/clang is not there: scripts/build.sh clang manylights" >&2
+  if [ ! -f build/asan/compile_commands.json ]; then
+    echo "build/asan is not there: scripts/build.sh asan manylights" >&2
     return 1
   fi
   sources | grep '\.cpp$' | grep -v '^tests/' | while read -r source; do
     # What CMake left out, because a package is not there, has no command to be checked with.
-    if grep -qF "/$source\"" build/clang/compile_commands.json; then echo "$source"; else echo "left out: $source" >&2; fi
+    if grep -qF "/$source\"" build/asan/compile_commands.json; then echo "$source"; else echo "left out: $source" >&2; fi
   done | xargs -P "$(nproc)" -n 1 sh -c '
-    found=$(clang-tidy --quiet -p build/clang "$1" 2>/dev/null) || { printf "%s\n" "$found"; exit 1; }' tidy
+    found=$(clang-tidy --quiet -p build/asan "$1" 2>/dev/null) || { printf "%s\n" "$found"; exit 1; }' tidy
 }
 
 spirv() {

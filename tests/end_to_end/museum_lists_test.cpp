@@ -9,6 +9,7 @@
 #include "algorithms/fine_pruned/pruned_lists.h"
 #include "harness/output/picture.h"
 #include "tests/end_to_end/program.h"
+#include "tests/support/drivers.h"
 
 namespace ml::test {
 namespace {

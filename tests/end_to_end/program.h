@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -64,11 +63,5 @@ std::string write_config(const Folder& folder, const nlohmann::json& config,
 
 // The result of a run, valid by its schema and its own rules.
 nlohmann::json valid_result(const std::filesystem::path& folder);
-
-// Whether the tests run on SwiftShader (scripts/test.sh), where some are thinned by name.
-inline bool on_swiftshader() {
-  const char* driver = std::getenv("VK_DRIVER_FILES");
-  return driver && std::string(driver).find("swiftshader") != std::string::npos;
-}
 
 }  // namespace ml::test

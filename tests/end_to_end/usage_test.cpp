@@ -1,5 +1,6 @@
 // What a user can get wrong: the exit code says whose fault it is, and one line says what was expected where.
 #include "tests/end_to_end/program.h"
+#include "tests/support/drivers.h"
 
 namespace ml::test {
 namespace {

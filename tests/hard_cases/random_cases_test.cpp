@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tests/hard_cases/random_frames.h"
+#include "tests/support/drivers.h"
 
 namespace ml::test {
 namespace {
@@ -19,10 +20,11 @@ void PrintTo(const Part& part, std::ostream* out) {
                       part.max_lights, part.seed);
 }
 
-// Every process compiles its programs anew on a driver that keeps none: a few parts are enough there.
+// Every process compiles its programs anew on a driver that keeps none: a few parts are enough there, and of those
+// with many lights, which take a minute each, one of a kind.
 bool is_thinned(const Part& part) {
-  constexpr uint32_t kept = 3;
-  return device().info().name.find("SwiftShader") != std::string::npos && part.seed % 100 > kept;
+  const uint32_t kept = part.max_lights > max_lights_of_short_passes ? 1 : 3;
+  return on_swiftshader() && part.seed % 100 > kept;
 }
 
 class RandomCases : public HardCases, public testing::WithParamInterface<Part> {};

@@ -38,14 +38,14 @@ says '  Other.Runs Timeout'
 never_says '  Whole.Passes'
 
 # A fuzzer that finds something fails its step; the other is heard out.
-mkdir -p "$tree/build/clang/tests/fuzz"
+mkdir -p "$tree/build/asan/tests/fuzz"
 for name in config gltf; do
-  printf '#!/bin/sh\necho "stat::number_of_executed_units: 12"\n' >"$tree/build/clang/tests/fuzz/fuzz_$name"
-  chmod +x "$tree/build/clang/tests/fuzz/fuzz_$name"
+  printf '#!/bin/sh\necho "stat::number_of_executed_units: 12"\n' >"$tree/build/asan/tests/fuzz/fuzz_$name"
+  chmod +x "$tree/build/asan/tests/fuzz/fuzz_$name"
 done
 expect 0 "$tree/.ci/run" fuzz
 says 'fuzz_gltf: 12 inputs, nothing found'
-printf '#!/bin/sh\necho "deadly signal"\nexit 77\n' >"$tree/build/clang/tests/fuzz/fuzz_gltf"
+printf '#!/bin/sh\necho "deadly signal"\nexit 77\n' >"$tree/build/asan/tests/fuzz/fuzz_gltf"
 expect 1 "$tree/.ci/run" fuzz
 says 'fuzz_config: 12 inputs, nothing found'
 says 'fuzz_gltf: FAILED'
