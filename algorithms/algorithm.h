@@ -1,9 +1,10 @@
 // The one interface behind which every many-light algorithm runs.
 //
-// A frame is three calls: prepare() on the CPU, cull() and the shading pass on the GPU. prepare() sees no
-// Vulkan and writes plain memory that the caller lends, so that it can be tested and benchmarked without a
-// device. The shading loop is the harness's own; an algorithm puts its light cursor into it
-// (`light_cursor.glsl` in its folder), so times differ by how lights are found and by nothing else.
+// A frame is prepare() on the CPU, then build() and shade() of the device half (device_algorithm.h).
+// prepare() sees no Vulkan and writes plain memory that the caller lends, so that it can be tested and
+// benchmarked without a device. What an algorithm does not bring is the harness's: nothing is built on the
+// device, and shading is one loop into which it puts its light cursor (`light_cursor.glsl` in its folder), so
+// that times differ by how lights are found and by nothing else.
 #pragma once
 
 #include <algorithm>
@@ -113,6 +114,7 @@ struct FrameInput {
 class UploadMemory {
  public:
   virtual ~UploadMemory() = default;
+  // Every slot is mapped by every prepare(), one that holds nothing with 0 bytes.
   // At least `bytes` writable bytes, 64-byte aligned; contents undefined. Valid until the next prepare().
   // Where the slot is cached(), mapping it again with fewer bytes keeps address and contents. Grows rarely
   // and never shrinks. Throws SystemError, naming algorithm, slot and limit, when the device cannot hold it.

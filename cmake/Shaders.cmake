@@ -22,7 +22,8 @@ function(ml_shader target symbol source)
   list(TRANSFORM shader_DEFINES PREPEND -D)
   file(MAKE_DIRECTORY ${folder}/spirv)
   add_custom_command(
-    OUTPUT ${header}
+    # The depfile speaks of the module: without it among the outputs every build would make everything anew.
+    OUTPUT ${module} ${header}
     COMMAND ${GLSLANG} --quiet --target-env vulkan1.3 ${stage} ${includes} ${shader_DEFINES} --depfile ${module}.d -o ${module} ${source}
     COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${module}
     COMMAND ${CMAKE_COMMAND} -DMODULE=${module} -DSYMBOL=${symbol} -DHEADER=${header} -P ${CMAKE_SOURCE_DIR}/cmake/EmbedSpirv.cmake

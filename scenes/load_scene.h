@@ -23,6 +23,8 @@ struct SceneSpec {
       0};  // m, added to the whole level in double: the far-from-origin test; |component| <= 1e9
   bool two_sided =
       false;  // every material is drawn from both sides: for levels whose winding is not reliable
+  // Of the same level.
+  bool operator==(const SceneSpec&) const = default;
 };
 
 // The light defaults of the scene that load_scene(spec) gives, without making it.

@@ -5,7 +5,7 @@
 #ifndef ML_CONSTANTS_GLSL
 #define ML_CONSTANTS_GLSL
 
-// Effects, by what the content calls for (harness/frame/effects.cpp has their table).
+// Effects, by what the content calls for (harness/scene/effects.h has their table).
 // A shape whose effect is off shines like an omni light of the same radius.
 layout(constant_id = 0) const bool EFFECT_SPOTS = true;
 layout(constant_id = 1) const bool EFFECT_CAPSULES = true;

@@ -17,8 +17,8 @@
 //     bool light_run(LightCursor, uint bit, bool here, out uint first, out uint count);
 //       a run, and whether the pixel wants it
 //     uint run_light(uint entry);                           a light of a run
-//   CURSOR_COUNTERS      in the counting variant, with store_counters(ivec2 pixel), which writes what the algorithm
-//                        counts beside the counters below;
+//   CURSOR_COUNTERS      in the counting variants, with store_counters(ivec2 pixel), which writes what the algorithm
+//                        counts beside the counters below; called once a pixel, forward or not;
 //   CURSOR_SHARED        with poison_shared(), which writes poison_word all over the memory that the cursor shares;
 //   CURSOR_CASES         with cursor_case(), light_next_in_list() and light_next_shared(): subgroups whose pixels have
 //                        something in common are walked in a loop of their own.

@@ -49,6 +49,9 @@ void main() {
   imageAtomicAdd(Nodes, ivec2(pixel), count_nodes);
   imageAtomicAdd(Hash, ivec2(pixel), count_hash);
   imageAtomicAdd(Traversal, ivec2(pixel), count_traversal);
+#ifdef CURSOR_COUNTERS
+  store_counters(ivec2(pixel));
+#endif
 #endif
 }
 

@@ -117,10 +117,16 @@ std::map<std::string, double> own_counters(const AlgorithmInfo& info, const Coun
     for (size_t i = 0; i < lit.size(); ++i) sum += lit[i] ? counts[i] : 0;
     values[name] = pixels > 0 ? sum / pixels : 0;
   }
-  for (const CounterInfo& counter : info.counters)
+  const std::map<std::string, double> built_in = FrameCounters{}.named();
+  for (const CounterInfo& counter : info.counters) {
+    if (built_in.contains(counter.name))
+      throw std::logic_error(
+          fmt::format("{}: the counter {} is one of the harness's; its own need other names (`list metrics`)",
+                      info.name, counter.name));
     if (!values.contains(counter.name))
       throw std::logic_error(
           fmt::format("{}: the counter {} is declared and not given", info.name, counter.name));
+  }
   if (values.size() != info.counters.size())
     throw std::logic_error(fmt::format("{}: it gives {} counters and declares {}", info.name, values.size(),
                                        info.counters.size()));

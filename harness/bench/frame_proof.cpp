@@ -83,6 +83,11 @@ FrameProof prove_frame(ShadedAlgorithm& algorithm, const FrameTruth& truth) {
   proof.picture = result_picture(frame);
   proof.counts = read_counts(frame);
   proof.counters = summarize(proof.counts, truth.contributing(), truth.lit(), algorithm.counters());
+  const auto own = [&] {
+    return own_counters(algorithm.info(), algorithm.own_counters(), algorithm.own_pixel_counters(frame),
+                        truth.lit());
+  };
+  proof.own = own();
   proof.not_finite = compare_images(proof.picture, proof.picture).not_finite;
   proof.miscounted = miscounted(algorithm.info(), proof.counts, truth.contributing(), truth.lit(),
                                 input.lights.count(), algorithm.wanted_lists());
@@ -106,7 +111,7 @@ FrameProof prove_frame(ShadedAlgorithm& algorithm, const FrameTruth& truth) {
     if (algorithm.upload_digest() != digest) say(fmt::format("uploads of {} threads", count));
   }
   algorithm.count(frame, input);
-  if (differ(read_counts(frame), proof.counts)) say("counters");
+  if (differ(read_counts(frame), proof.counts) || own() != proof.own) say("counters");
   say_picture("counting");
   return proof;
 }

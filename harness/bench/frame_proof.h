@@ -2,6 +2,7 @@
 // algorithm's own test.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,9 +57,10 @@ std::vector<size_t> pixels_of(const std::vector<glm::u16vec2>& blocks, uint32_t 
 struct FrameProof {
   Picture picture;
   PixelCounts counts;
-  FrameCounters counters;   // `lost`, `mismatched_pixels` and what prepare() had to cut off
-  std::string miscounted;   // why the counters cannot be right; empty when they may be
-  uint64_t not_finite = 0;  // pixels
+  std::map<std::string, double> own;  // counters of the algorithm's own: all that it declares
+  FrameCounters counters;             // `lost`, `mismatched_pixels` and what prepare() had to cut off
+  std::string miscounted;             // why the counters cannot be right; empty when they may be
+  uint64_t not_finite = 0;            // pixels
   // What was not the same again: uploads of 1, 2 and 7 threads, counters, pictures of the counting program
   // and of the timed one. Empty when all was.
   std::string unlike;

@@ -170,7 +170,7 @@ Result run_config(const Config& config, const RunOptions& options) {
   KeptFrame kept;
   for (const auto& [index, group] : groups) {
     const Setup& setup = config.setups[index];
-    if (scene && !same_scene(scene_spec, setup.scene)) scene = nullptr;
+    if (scene && !(scene_spec == setup.scene)) scene = nullptr;
     SetupRun run(*device, config, group, scene, kept, log);
     scene = run.workload().scene();
     scene_spec = setup.scene;

@@ -23,16 +23,11 @@ CameraPath path_of(const CameraSpec& spec, const Scene& scene) {
 
 }  // namespace
 
-bool same_scene(const SceneSpec& a, const SceneSpec& b) {
-  return a.procedural == b.procedural && a.gltf == b.gltf && a.gltf_scene == b.gltf_scene &&
-         a.seed == b.seed && a.offset == b.offset && a.two_sided == b.two_sided;
-}
-
 std::shared_ptr<const Scene> check_workloads(const std::vector<const Setup*>& setups) {
   std::shared_ptr<const Scene> first, scene;
   const Setup* before = nullptr;
   for (const Setup* setup : setups) {
-    if (before && !same_scene(before->scene, setup->scene)) scene = nullptr;
+    if (before && !(before->scene == setup->scene)) scene = nullptr;
     scene = Workload(*setup, 1, scene).scene();
     before = setup;
     if (!first) first = scene;

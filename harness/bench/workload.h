@@ -33,8 +33,6 @@ class Workload {
   std::unique_ptr<FrameSequence> frames_;
 };
 
-bool same_scene(const SceneSpec& a, const SceneSpec& b);
-
 // Makes the workload of each setup once and lets it go: what cannot be had (UsageError) is known before any
 // work starts. Returns the scene of the first one.
 std::shared_ptr<const Scene> check_workloads(const std::vector<const Setup*>& setups);

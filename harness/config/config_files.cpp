@@ -7,6 +7,7 @@
 #include "harness/base/file.h"
 #include "harness/base/json_text.h"
 #include "harness/config/config.h"
+#include "scenes/scene_registry.h"
 
 namespace ml {
 
@@ -84,6 +85,11 @@ Config load_config(const std::string& file_or_name, const std::vector<std::strin
   if (!file_or_name.empty() && fs::exists(file_or_name, failed)) return load_file(file_or_name, overrides);
   std::string name =
       file_or_name.ends_with(".json") ? file_or_name.substr(0, file_or_name.size() - 5) : file_or_name;
+  const std::vector<std::string> scenes = scene_names();
+  if (std::find(scenes.begin(), scenes.end(), file_or_name) != scenes.end())
+    throw UsageError(
+        file_or_name +
+        ": a scene and no configuration; name one of these too, such as quick --set scene=" + file_or_name);
   throw UsageError(file_or_name + ": neither a file nor the name of a configuration" +
                    suggestion(name, names));
 }

@@ -124,6 +124,7 @@ uint32_t ShadedAlgorithm::range() const {
 }
 
 std::span<std::byte> ShadedAlgorithm::map(uint32_t slot, size_t bytes) {
+  mapped_.at(slot) = true;
   if (options_.fetches_texels(device_)) require_texels(device_.limits(), buffers_.at(slot).name(), bytes);
   return buffers_.at(slot).map(bytes);
 }
@@ -160,7 +161,11 @@ void ShadedAlgorithm::prepare(const FrameInput& input, Spans& spans, std::span<c
     step_ = input.step == Step::next && input.index == *last_index_ + 1 ? Step::next : Step::first;
   last_index_ = input.index;
   own_images_.follow(step_);
+  mapped_.assign(names_.size(), false);
   algorithm_->prepare(stepped(input), *this, spans);
+  for (size_t slot = 0; slot < names_.size(); ++slot)
+    if (!mapped_[slot])
+      throw std::logic_error(entry_.info.name + ": prepare() has not mapped its buffer " + names_[slot]);
   counters_ = algorithm_->counters();
   auto span = spans.span("upload");
   sort_blocks(input, blocks);

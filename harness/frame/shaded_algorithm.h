@@ -104,6 +104,7 @@ class ShadedAlgorithm final : private UploadMemory {
   Step step_ = Step::first;             // of the frame that was prepared last
   std::optional<uint32_t> last_index_;  // its number
   std::vector<std::string> names_;
+  std::vector<bool> mapped_;  // which of them prepare() has mapped
   std::deque<gpu::UploadBuffer> buffers_;
   FrameOptions options_;
   bool together_;

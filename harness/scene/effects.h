@@ -1,6 +1,6 @@
 // The effects: what the content of a setup may call for beyond omni lights on opaque surfaces. One table
-// names them all; configuration, result, `list effects` and specialization constants are made from it. To add
-// one: a member, a row, its constant in shaders/constants.glsl, and what implements it.
+// names them all; configuration, result, `list effects` and specialization constants are made from it.
+// docs/adding_an_effect.md says what one more takes.
 #pragma once
 
 #include <array>

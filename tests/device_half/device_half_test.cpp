@@ -114,6 +114,32 @@ TEST_F(DeviceHalf, CountersOfBothKindsAreThoseThatItDeclares) {
                std::logic_error);
 }
 
+TEST_F(DeviceHalf, CountersOfPixelsLitForwardAreThereToo) {
+  if (!lights_forward_materials()) GTEST_SKIP() << no_forward_materials;
+  Scene scene = yard();
+  for (Material& material : scene.materials) material.forward = true;
+  FrameOptions options = options_;
+  options.effects.forward = true;
+  DeviceFrame frame(device(), scene, options, width, height);
+  ShadedAlgorithm algorithm(device(), entry_, {}, options);
+  frame.load(input_);
+  Spans spans;
+  algorithm.prepare(input_, spans, frame.occupied_blocks().positions());
+  algorithm.count(frame, input_);
+  const auto values = own_counters(algorithm.info(), algorithm.own_counters(),
+                                   algorithm.own_pixel_counters(frame), lit_pixels(frame));
+  EXPECT_EQ(values.at("asked"), lights + 1);
+}
+
+TEST_F(DeviceHalf, CountersHaveNamesOfTheirOwn) {
+  frame(0, Step::first);
+  AlgorithmInfo taken = algorithm_.info();
+  taken.counters.front().name = "listed";
+  EXPECT_THROW(own_counters(taken, algorithm_.own_counters(), algorithm_.own_pixel_counters(frame_),
+                            lit_pixels(frame_)),
+               std::logic_error);
+}
+
 TEST_F(DeviceHalf, AnotherResolutionBeginsAnew) {
   frame(0, Step::first);
   frame(1, Step::next);

@@ -3,7 +3,7 @@ struct LightCursor {
   uint next;
 };
 
-#if defined(COUNTING) && !defined(FORWARD)
+#ifdef COUNTING
 layout(r32ui, binding = 16) writeonly uniform uimage2D asked;
 uint count_asked = 0u;
 void store_counters(ivec2 pixel) { imageStore(asked, pixel, uvec4(count_asked)); }

@@ -73,6 +73,7 @@ TEST_F(ConfigFolder, UnknownNamesAreSuggested) {
   EXPECT_NE(refusal("smal.json").find("did you mean 'small'?"), std::string::npos);
   EXPECT_NE(refusal("papers/figur").find("did you mean 'papers/figure'?"), std::string::npos);
   EXPECT_NE(refusal("").find("neither a file nor"), std::string::npos);
+  EXPECT_NE(refusal("citadel").find("quick --set scene=citadel"), std::string::npos);
   refusal(std::string("a\0b", 3));
   refusal(folder_);
   refusal("../" + folder_.filename().string() + "/small");
