@@ -88,6 +88,11 @@ FrameProof prove_frame(ShadedAlgorithm& algorithm, const FrameTruth& truth) {
                         truth.lit());
   };
   proof.own = own();
+  const ContributingLights& lights = truth.contributing();
+  for (size_t i = 0; i < lights.count.size() && proof.mismatch.empty(); ++i)
+    if (proof.counts.contributing[i] != lights.count[i] || proof.counts.hash[i] != lights.hash[i])
+      proof.mismatch =
+          fmt::format("pixel ({}, {})", i % input.view.resolution.x, i / input.view.resolution.x);
   proof.not_finite = compare_images(proof.picture, proof.picture).not_finite;
   proof.miscounted = miscounted(algorithm.info(), proof.counts, truth.contributing(), truth.lit(),
                                 input.lights.count(), algorithm.wanted_lists());

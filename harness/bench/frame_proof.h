@@ -59,8 +59,9 @@ struct FrameProof {
   PixelCounts counts;
   std::map<std::string, double> own;  // counters of the algorithm's own: all that it declares
   FrameCounters counters;             // `lost`, `mismatched_pixels` and what prepare() had to cut off
-  std::string miscounted;             // why the counters cannot be right; empty when they may be
-  uint64_t not_finite = 0;            // pixels
+  std::string mismatch;     // "pixel (31, 17)", the first whose lights are wrong; empty when none are
+  std::string miscounted;   // why the counters cannot be right; empty when they may be
+  uint64_t not_finite = 0;  // pixels
   // What was not the same again: uploads of 1, 2 and 7 threads, counters, pictures of the counting program
   // and of the timed one. Empty when all was.
   std::string unlike;

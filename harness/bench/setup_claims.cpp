@@ -45,8 +45,8 @@ void SetupProof::add_case_claims(size_t i, std::vector<Claim>& list) const {
                                 t.lost, t.mismatched, t.pixels, t.overflow_lights, t.overflow_tiles)});
   } else if (entries_[i]->info.exact) {
     list.push_back({id, "no light lost, none twice", t.lost == 0 && t.mismatched == 0,
-                    fmt::format("lost {}, {} of {} pixels differ, {} lights, {} frames", t.lost, t.mismatched,
-                                t.pixels, t.lights, frames_)});
+                    fmt::format("lost {}, {} of {} pixels differ, {} lights, {} frames{}", t.lost,
+                                t.mismatched, t.pixels, t.lights, frames_, t.mismatch)});
     list.push_back({id, "image is brute force's within rounding", t.to_brute.holds(),
                     t.to_brute.evidence("sampled pixels")});
     list.push_back(

@@ -178,6 +178,8 @@ void SetupProof::prove_case(size_t i, FrameTruth& truth) {
   tally.not_finite += proof.not_finite;
   if (tally.miscounted.empty()) tally.miscounted = proof.miscounted;
   if (tally.unlike.empty()) tally.unlike = proof.unlike;
+  if (tally.mismatch.empty() && !proof.mismatch.empty())
+    tally.mismatch = fmt::format("; first in frame {}, {}", truth.input().index, proof.mismatch);
   auto compare = [&](size_t pixel, const Picture& reference, PictureProof& sums) {
     truth.judge().against_each_other(proof.picture, reference, pixel, truth.lit()[pixel] != 0, sums);
   };

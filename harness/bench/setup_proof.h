@@ -36,6 +36,7 @@ class SetupProof {
     // Why the counters contradict themselves, and what was not the same again, of the first frame in which
     // it is so.
     std::string miscounted, unlike;
+    std::string mismatch;  // where lights were first wrong
   };
 
   // Tells what the level brings and what of it is used.
