@@ -13,7 +13,7 @@ namespace ml {
 // origin. Made in double; the pivot lies in the middle of the draw, so that rounding to float is as small as
 // for vertices that stand still.
 struct DrawPose {
-  bool seen = true;  // false: the node has scale 0 (or leaves all bounds) at that time
+  bool seen = true;       // false: the node has scale 0 (or leaves all bounds) at that time
   bool mirrored = false;  // triangles are turned over (an odd number of axes changed its sign)
   glm::mat3 linear{1};
   glm::vec3 pivot{0}, moved_pivot{0};

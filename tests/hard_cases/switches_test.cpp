@@ -78,8 +78,8 @@ TEST_P(Switches, EveryCombinationLosesNothing) {
   for (size_t e = 0; e < options.size(); ++e) {
     SCOPED_TRACE(fmt::format("surroundings {}", e));
     // One in four with each, so that every pair of a switch and a surrounding is met where there are many. Of
-    // these one in five where a driver takes minutes to compile them all.
-    const size_t thinned = on_swiftshader() ? 5 : 1;
+    // these one in eight where a driver takes minutes to compile them all.
+    const size_t thinned = on_swiftshader() ? 8 : 1;
     std::vector<Trial> chosen;
     for (size_t i = 0; i < trials.size(); ++i)
       if (trials.size() < 4 * options.size() ||
