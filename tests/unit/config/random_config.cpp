@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/scene/effects.h"
+
 namespace ml {
 namespace {
 
@@ -32,6 +34,14 @@ bool now() {
 
 json one_of(const std::vector<json>& values) {
   return values[static_cast<size_t>(integer(0, static_cast<int64_t>(values.size()) - 1))];
+}
+
+// Of the effects that can be switched off.
+std::vector<json> effect_keys() {
+  std::vector<json> keys;
+  for (const EffectInfo& info : effect_table)
+    if (info.key) keys.emplace_back(info.key);
+  return keys;
 }
 
 json vector() {
@@ -154,10 +164,7 @@ json random_config() {
     config["outputs"] = {{"images", {frames - 1}}, {"trace", now()}};
     if (now()) config["outputs"]["heatmaps"] = json::array();
   }
-  if (now())
-    config["effects"] = {{one_of({"spots", "capsules", "wedges", "boxes", "probes", "specular", "alpha_mask",
-                                  "forward", "material_detail", "emission"}),
-                          one_of({"auto", "off"})}};
+  if (now()) config["effects"] = {{one_of(effect_keys()), one_of({"auto", "off"})}};
   if (now()) {
     config["shading"] = {{"targets", one_of({"one", "split"})}};
     if (now()) config["shading"]["shadow_maps"] = integer(0, 16);

@@ -47,12 +47,7 @@ void expect_same(const Config& a, const Config& b) {
     RC_ASSERT(x.shading.list_queue == y.shading.list_queue);
     RC_ASSERT(x.shading.light_fetch == y.shading.light_fetch);
     RC_ASSERT(x.shading.test_ahead == y.shading.test_ahead);
-    RC_ASSERT(x.effects.spots == y.effects.spots);
-    RC_ASSERT(x.effects.capsules == y.effects.capsules);
-    RC_ASSERT(x.effects.wedges == y.effects.wedges);
-    RC_ASSERT(x.effects.boxes == y.effects.boxes);
-    RC_ASSERT(x.effects.probes == y.effects.probes);
-    RC_ASSERT(x.effects.forward == y.effects.forward);
+    RC_ASSERT(x.effects == y.effects);
     RC_ASSERT(x.algorithms.size() == y.algorithms.size());
     for (size_t k = 0; k < x.algorithms.size(); ++k) {
       RC_ASSERT(x.algorithms[k].name == y.algorithms[k].name);
