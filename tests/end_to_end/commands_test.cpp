@@ -79,7 +79,7 @@ TEST(Commands, VerifyProvesTheTownAndTheGrove) {
   for (const char* name : {"citadel", "grove"}) {
     Outcome outcome =
         manylights({"verify", name, "--set", "resolution=[160,90]", "--set", "camera.frames=3", "--set",
-                    "lights.count=1024", "--set", "outputs.images=[]", "--set", "outputs.heatmaps=[]"});
+                    "lights.count=1024"});  // of frames that are asked for as pictures one is not there
     EXPECT_EQ(outcome.code, 0) << name << ": " << outcome.out << outcome.error;
   }
 }
