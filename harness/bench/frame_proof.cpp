@@ -16,6 +16,11 @@ bool differ(const PixelCounts& a, const PixelCounts& b) {
          a.nodes != b.nodes || a.hash != b.hash || a.traversal != b.traversal;
 }
 
+// Other lights contributed to the pixel than should.
+bool mismatched(const PixelCounts& counts, const ContributingLights& truth, size_t pixel) {
+  return counts.contributing[pixel] != truth.count[pixel] || counts.hash[pixel] != truth.hash[pixel];
+}
+
 }  // namespace
 
 FrameTruth::FrameTruth(DeviceFrame& frame, const FrameInput& input, LightLists lists)
@@ -62,8 +67,7 @@ ReferenceProof prove_reference(ShadedAlgorithm& brute_force, const FrameTruth& t
   proof.counts = read_counts(frame);
   const ContributingLights& lights = truth.contributing();
   for (size_t pixel : pixels_of(blocks, frame.targets().width(), frame.targets().height())) {
-    proof.mismatched += proof.counts.contributing[pixel] != lights.count[pixel] ||
-                        proof.counts.hash[pixel] != lights.hash[pixel];
+    proof.mismatched += mismatched(proof.counts, lights, pixel);
     if (!truth.lit()[pixel]) continue;
     ++proof.lit;
     proof.cut_short += proof.counts.tested[pixel] != truth.input().lights.count();
@@ -90,7 +94,7 @@ FrameProof prove_frame(ShadedAlgorithm& algorithm, const FrameTruth& truth) {
   proof.own = own();
   const ContributingLights& lights = truth.contributing();
   for (size_t i = 0; i < lights.count.size() && proof.mismatch.empty(); ++i)
-    if (proof.counts.contributing[i] != lights.count[i] || proof.counts.hash[i] != lights.hash[i])
+    if (mismatched(proof.counts, lights, i))
       proof.mismatch =
           fmt::format("pixel ({}, {})", i % input.view.resolution.x, i / input.view.resolution.x);
   proof.not_finite = compare_images(proof.picture, proof.picture).not_finite;
