@@ -131,6 +131,29 @@ TEST_F(DeviceHalf, CountersOfPixelsLitForwardAreThereToo) {
   EXPECT_EQ(values.at("asked"), lights + 1);
 }
 
+// Forgets one of its buffers.
+class Forgetful final : public Algorithm {
+ public:
+  void prepare(const FrameInput&, UploadMemory& memory, Spans&) override { memory.map(0, 16); }
+  PrepareCounters counters() const override { return {}; }
+  std::vector<std::string> buffers() const override { return {"Mapped", "Forgotten"}; }
+  ShadeShaders shade_shaders() const override { return {}; }
+};
+
+TEST_F(DeviceHalf, EveryBufferIsMapped) {
+  AlgorithmEntry entry = entry_;
+  entry.create = [](const Parameters&) { return std::make_unique<Forgetful>(); };
+  ShadedAlgorithm algorithm(device(), entry, {}, options_);
+  frame_.load(input_);
+  Spans spans;
+  try {
+    algorithm.prepare(input_, spans, frame_.occupied_blocks().positions());
+    FAIL() << "nothing is said";
+  } catch (const std::logic_error& refused) {
+    EXPECT_NE(std::string(refused.what()).find("Forgotten"), std::string::npos) << refused.what();
+  }
+}
+
 TEST_F(DeviceHalf, CountersHaveNamesOfTheirOwn) {
   frame(0, Step::first);
   AlgorithmInfo taken = algorithm_.info();
