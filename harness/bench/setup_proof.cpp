@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/heap_memory.h"
 #include "harness/base/error.h"
 #include "harness/base/random.h"
 #include "harness/bench/bookkeeping.h"
@@ -37,6 +38,26 @@ const AlgorithmEntry& entry_that(Predicate predicate) {
   throw std::logic_error("the registry has no reference algorithm");
 }
 
+// Made anew each time: what is kept from the call before shows nothing of how it is built.
+bool same_for_all_thread_counts(const AlgorithmEntry& entry, const Parameters& parameters,
+                                const FrameInput& input, size_t limit) {
+  std::optional<std::vector<std::byte>> first;
+  for (unsigned count : {1u, 2u, 7u}) {
+    Threads threads(count);
+    FrameInput copy = input;
+    copy.threads = &threads;
+    auto algorithm = entry.create(parameters);
+    HeapMemory memory(true, limit);
+    Spans spans;
+    algorithm->prepare(copy, memory, spans);
+    if (!first)
+      first = memory.all();
+    else if (*first != memory.all())
+      return false;
+  }
+  return true;
+}
+
 // Seconds that steps are expected to take, on two cores of a software device.
 struct ProofSeconds {
   double programs, reference, proof;
@@ -62,6 +83,7 @@ SetupProof::SetupProof(gpu::Device& device, const Config& config, const std::vec
       setup_(config.setups[cases.front().setup]),
       cases_(cases),
       options_(options),
+      storage_buffer_range_(device.limits().storage_buffer_range),
       workload_(setup_, config.measure.threads),
       frame_(device, *workload_.scene(), workload_.options(), setup_.width, setup_.height),
       tallies_(cases.size()) {
@@ -178,6 +200,10 @@ void SetupProof::prove_case(size_t i, FrameTruth& truth) {
   tally.not_finite += proof.not_finite;
   if (tally.miscounted.empty()) tally.miscounted = proof.miscounted;
   if (tally.unlike.empty()) tally.unlike = proof.unlike;
+  const Parameters& parameters = setup_.algorithms[cases_[i].algorithm].parameters;
+  if (tally.unlike.empty() &&
+      !same_for_all_thread_counts(*entries_[i], parameters, truth.input(), storage_buffer_range_))
+    tally.unlike = "lists made anew by 1, 2 and 7 threads";
   if (tally.mismatch.empty() && !proof.mismatch.empty())
     tally.mismatch = fmt::format("; first in frame {}, {}", truth.input().index, proof.mismatch);
   auto compare = [&](size_t pixel, const Picture& reference, PictureProof& sums) {

@@ -52,6 +52,7 @@ class SetupProof {
   const Setup& setup_;
   std::vector<Case> cases_;
   const VerifyOptions& options_;
+  size_t storage_buffer_range_;  // bytes
   Workload workload_;
   DeviceFrame frame_;
   std::vector<const AlgorithmEntry*> entries_;
